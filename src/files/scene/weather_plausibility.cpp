@@ -128,8 +128,8 @@ std::optional<std::string> excess(const WeatherInterval& interval, double elevat
     if (value <= limit) return std::nullopt;
     return fmt::format("{} = {:.6g} W m-2 is more than the sun can send; at most {:.0f}", name, value, limit);
   };
+  if (!interval.has_parts()) return over("ghi", interval.ghi_w_m2, 1.5 * level + 100.0);
   if (auto found = over("dni", interval.dni_w_m2, outside)) return found;
-  if (auto found = over("ghi", interval.ghi_w_m2, 1.5 * level + 100.0)) return found;
   return over("dhi", interval.dhi_w_m2, 0.95 * level + 50.0);
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,13 @@ void print_defects(const MeshDefects& defects) {
   fmt::print("  defects: {}\n", line.empty() ? "none" : line);
 }
 
+// Returns both ends with as many digits as tell them apart to five digits of the range, five or more.
+std::string range_text(double lo, double hi) {
+  const double larger = std::max(std::abs(lo), std::abs(hi));
+  const double digits = 5.0 + (hi > lo ? std::floor(std::log10(larger / (hi - lo))) : 0.0);
+  return fmt::format("{0:.{2}g}..{1:.{2}g}", lo, hi, static_cast<int>(std::clamp(digits, 5.0, 15.0)));
+}
+
 void print_survey(const std::filesystem::path& file, const MeshSurvey& survey, const NamedParts& named) {
   const ShapeFigures& shape = survey.shape;
   const double unit_m2 = squared(survey.frame.metres_per_unit);
@@ -135,8 +143,8 @@ void print_survey(const std::filesystem::path& file, const MeshSurvey& survey, c
              survey.frame.up_reason);
   fmt::print("  unit: {} ({}: {})\n", unit_name(survey.frame.metres_per_unit), certainty_name(survey.frame.unit_certainty),
              survey.frame.unit_reason);
-  fmt::print("  box: x {:.5g}..{:.5g}, y {:.5g}..{:.5g}, z {:.5g}..{:.5g}\n", shape.lo.x, shape.hi.x, shape.lo.y, shape.hi.y,
-             shape.lo.z, shape.hi.z);
+  fmt::print("  box: x {}, y {}, z {}\n", range_text(shape.lo.x, shape.hi.x), range_text(shape.lo.y, shape.hi.y),
+             range_text(shape.lo.z, shape.hi.z));
   fmt::print("  {}, one-sided area {:.5g} m2{}\n", counted(survey.triangles, "triangle", "triangles"), survey.area_m2(),
              survey.frame.metres_per_unit == 1.0 ? "" : fmt::format(" ({:.5g} square units)", survey.area));
   fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant", "plants"),

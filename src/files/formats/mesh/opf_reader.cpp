@@ -25,12 +25,16 @@ struct OpfMesh {
   std::vector<std::uint32_t> corners;     // of all faces
   std::vector<std::size_t> face_corners;  // [face], how many
   bool tapers = true;
+  double x_lo = 0.0, x_hi = 0.0;
+
+  // Returns how far a point lies along the mesh, from 0 at its least x to 1 at its largest.
+  [[nodiscard]] double share_of_length(double x) const { return x_hi > x_lo ? (x - x_lo) / (x_hi - x_lo) : 0.0; }
 };
 
 // The geometry of an organ.
 struct OpfPlacement {
   glm::dmat4 to_plant{1.0};
-  double lower = 1.0, upper = 1.0;  // the factors of y and z where x is 0 and 1
+  double lower = 1.0, upper = 1.0;  // the factors of y and z at the mesh's least and largest x
 };
 
 class OpfReader {
@@ -68,6 +72,12 @@ class OpfReader {
     const std::vector<double> numbers = xml_.numbers(points);
     if (numbers.size() % 3 != 0) xml_.refuse_at(points, fmt::format("{} coordinates", numbers.size()), "a point has three");
     for (std::size_t i = 0; i < numbers.size(); i += 3) mesh.points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    const auto [least, largest] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
+                                                      [](const glm::dvec3& a, const glm::dvec3& b) { return a.x < b.x; });
+    if (!mesh.points.empty()) {
+      mesh.x_lo = least->x;
+      mesh.x_hi = largest->x;
+    }
     for (const pugi::xml_node face : element.child("faces").children("face")) {
       const std::vector<std::int64_t> corners = xml_.integers(face);
       if (corners.size() < 3)
@@ -132,7 +142,8 @@ class OpfReader {
 
   glm::dvec3 placed(pugi::xml_node geometry, const OpfMesh& mesh, const OpfPlacement& placement,
                     const glm::dvec3& point) const {
-    const double factor = mesh.tapers ? placement.lower + (placement.upper - placement.lower) * point.x : 1.0;
+    const double factor =
+        mesh.tapers ? placement.lower + (placement.upper - placement.lower) * mesh.share_of_length(point.x) : 1.0;
     const glm::dvec3 moved = placement.to_plant * glm::dvec4(point.x, factor * point.y, factor * point.z, 1.0);
     if (!std::isfinite(moved.x + moved.y + moved.z))
       xml_.refuse_at(geometry, "a point that is not finite", "its numbers are too large");

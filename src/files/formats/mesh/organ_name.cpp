@@ -1,5 +1,6 @@
 #include "files/formats/mesh/organ_name.h"
 
+#include "base/text.h"
 #include "base/text_reader.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ std::optional<Organ> organ_from_name(std::string_view name) {
   if (const std::size_t dot = name.rfind('.');
       dot != name.npos && dot + 1 < name.size() && name.find_first_not_of(digits, dot + 1) == name.npos)
     name = name.substr(0, dot);
-  if (!name.starts_with(prefix)) return std::nullopt;
+  if (lower_case(name.substr(0, prefix.size())) != prefix) return std::nullopt;
   name.remove_prefix(prefix.size());
   const std::size_t bar = name.find('_');
   if (bar == name.npos) return std::nullopt;

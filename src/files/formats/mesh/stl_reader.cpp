@@ -134,7 +134,7 @@ Mesh read_stl(const MeshSource& source) {
   LineReader lines(source.bytes);
   while (lines.next())
     if (std::string_view rest = lines.line(); !trimmed(rest).empty()) {
-      if (lower_case(next_word(rest)) == "solid") return reader.read_text();
+      if (lower_case(next_word(rest)) == "solid" && source.bytes.find('\0') == source.bytes.npos) return reader.read_text();
       break;
     }
   const std::size_t size = source.bytes.size();

@@ -22,6 +22,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t not_there = static_cast<std::size_t>(-1);
+constexpr double missing_w_m2 = -90.0;  // from here down a value marks one that is missing, as -99.9 or -9999 do
 constexpr std::string_view time_cure = "write it as 2002-08-08T10:10:00+08:00";
 
 struct Columns {
@@ -114,7 +115,9 @@ class StationReader {
     if (*value < 0.0 || *value > most_broadband_w_m2) {
       refuse_line(file_, line_, fmt::format("{} = {}", column, *value),
                   fmt::format("must lie in 0..{} W m-2", most_broadband_w_m2),
-                  *value < 0.0 ? "set the night offset of the pyranometer to 0" : "give the mean over the interval in W m-2");
+                  *value > 0.0            ? "give the mean over the interval in W m-2"
+                  : *value > missing_w_m2 ? "set the night offset of the pyranometer to 0"
+                                          : "if it marks a missing value, remove the row to leave a gap");
     }
     return *value;
   }

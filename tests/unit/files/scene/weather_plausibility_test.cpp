@@ -66,6 +66,9 @@ TEST(WeatherPlausibility, LightIsAtMostThatOfTheSun) {
   Weather weather = clear_hours(48, paris);
   weather.intervals[12].ghi_w_m2 = 2500.0;
   EXPECT_NE(only_warning(weather, paris).find("in line 14, ghi = 2500 W m-2 is more than the sun can send"), std::string::npos);
+  weather.intervals[12].dni_w_m2 = 700.0;
+  weather.intervals[12].dhi_w_m2 = 100.0;
+  EXPECT_TRUE(weather_warnings(weather, paris, "w").empty()) << "the parts take precedence";
   WeatherInterval moment;
   moment.dni_w_m2 = 1400.0;
   moment.dhi_w_m2 = 100.0;

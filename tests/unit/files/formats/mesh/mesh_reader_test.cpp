@@ -157,6 +157,7 @@ TEST(MeshReader, NodeNamesGiveOrgans) {
   EXPECT_EQ(organ_from_name("plant1_leaf2_7"), (Organ{1, "leaf2", 7}));
   EXPECT_EQ(organ_from_name("plant1_scar_-2"), (Organ{1, "scar", -2}));
   EXPECT_EQ(organ_from_name("plant0_soil"), (Organ{0, "soil", 0}));
+  EXPECT_EQ(organ_from_name("Plant2_Leaf03"), (Organ{2, "Leaf", 3}));
   for (const char* name : {"", "leaf7", "plant_leaf7", "plant1", "plant1_", "plant1_7", "plantx_leaf", "plant-1_leaf7",
                            "plant99999999999_leaf", "plant1_leaf99999999999"})
     EXPECT_FALSE(organ_from_name(name)) << name;

@@ -28,12 +28,17 @@ TEST(OpfReader, CentimetresWithZUp) {
   expect_at(read_opf_text(opf_square(), {.scale = 2.0}).vertices[1], {2, 0, 0});
 }
 
-// y and z are multiplied by dDwn where x is 0 and by dUp where x is 1, here 3 and 5.
+// y and z are multiplied by dDwn at the mesh's least x and by dUp at its largest, here 3 and 5.
 TEST(OpfReader, OrgansTaper) {
   const std::string text = swapped(swapped(opf_square(), "<dUp>1", "<dUp>5"), "<dDwn>1", "<dDwn>3");
   const Mesh mesh = read_opf_text(text);
   expect_at(mesh.vertices[1], {3, 0, 0});
   expect_at(mesh.vertices[2], {5, 1, 0});
+  const Mesh longer = read_opf_text(swapped(text, "0 0 0 0 1 0 1 1 0 1 0 0", "-2 0 0 -2 1 0 6 1 0 6 0 0"));
+  expect_at(longer.vertices[1], {3, -2, 0});
+  expect_at(longer.vertices[2], {5, 6, 0});
+  const Mesh without_length = read_opf_text(swapped(text, "0 0 0 0 1 0 1 1 0 1 0 0", "4 0 0 4 1 0 4 1 1 4 0 1"));
+  expect_at(without_length.vertices[1], {3, 4, 0});
   expect_at(read_opf_text(swapped(text, "enableScale=\"true\"", "enableScale=\"false\"")).vertices[2], {1, 1, 0});
 }
 

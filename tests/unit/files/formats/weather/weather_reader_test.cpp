@@ -183,6 +183,7 @@ TEST(WeatherAttack, BrokenStations) {
       {"value infinite", "a.csv", bad("710.5", "inf"), ":4: ghi 'inf'", "must be a number"},
       {"value a word", "a.csv", bad("710.5", "bright"), ":4: ghi 'bright'", "must be a number"},
       {"value negative", "a.csv", bad("710.5", "-3"), ":4: ghi = -3", "the night offset"},
+      {"value missing", "a.csv", bad("710.5", "-9999"), ":4: ghi = -9999", "marks a missing value"},
       {"value huge", "a.csv", bad("710.5", "1e9"), ":4: ghi = 1000000000", "0..3000"},
       {"no offset", "a.csv", bad("10:10:00+08:00", "10:10:00"), ":4: time", "has no offset"},
       {"no time of day", "a.csv", bad("T10:10:00+08:00", ""), ":4: time", "ISO 8601"},
