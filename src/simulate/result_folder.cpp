@@ -34,6 +34,10 @@ namespace {
 constexpr const char* profile_file = "profile.csv";
 constexpr const char* profile_plot_file = "profile.png";
 
+const char* name_of(ResultOf result) {
+  return result == ResultOf::run ? "run" : "day";
+}
+
 std::string file_of(const Picture& picture) {
   return stem_of(picture) + ".png";
 }
@@ -221,8 +225,15 @@ std::filesystem::path result_folder(const ResultRequest& request, const std::fil
   return request.output.empty() ? std::filesystem::path("results") / scene_stem(scene) : request.output;
 }
 
-void check_inputs(const std::filesystem::path& folder, const Scene& scene) {
+void check_folder(const std::filesystem::path& folder, const Scene& scene, ResultOf result) {
   std::error_code error;
+  const bool is_run = result == ResultOf::run;
+  if (is_run ? holds_unfinished_day(folder) : std::filesystem::exists(folder / run_state_file, error)) {
+    const ResultOf other = is_run ? ResultOf::day : ResultOf::run;
+    throw_input(printable(folder.string()),
+                fmt::format("it holds an unfinished {0}, which a {1} would replace", name_of(other), name_of(result)),
+                fmt::format("finish it with `sunfleck {} --resume`, or give another folder with -o", name_of(other)));
+  }
   const std::filesystem::path results = std::filesystem::weakly_canonical(folder, error);
   for (const SourceFile& file : scene.files) {
     const std::string name = file.path.filename().string();
@@ -250,10 +261,13 @@ std::optional<std::string> lack_of(const std::filesystem::path& folder, std::str
   return fmt::format("the {} in {} is finished, and has no {}", work, printable(folder.string()), file);
 }
 
-void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old) {
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, ResultOf result, OldResults old) {
   lock.make_folder();
   std::error_code error;
   const bool of_earlier_run = std::filesystem::exists(folder / summary_file, error);
+  const std::optional<nlohmann::json> earlier = summary_in(folder);
+  if (earlier && earlier->contains("settings") && command_of(*earlier) != name_of(result))
+    warn(fmt::format("{}: this {} replaces the result of another command there", printable(folder.string()), name_of(result)));
   const auto is_stale = [old](const std::string& name) {
     return is_file_of_runs(name) && (old == OldResults::remove_all || name != run_state_file);
   };

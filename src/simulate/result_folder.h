@@ -33,17 +33,22 @@ inline constexpr const char* summary_file = "summary.json";
 // Says what to do with the files of an earlier run, so that the folder never holds parts of two runs.
 enum class OldResults { remove_all, keep_checkpoint };
 
-// Refuses a folder in which a result would replace a file that the scene was read from. Throws Error (input).
-void check_inputs(const std::filesystem::path& folder, const Scene& scene);
+// The two kinds of results that a folder may hold, never together.
+enum class ResultOf { run, day };
+
+// Refuses a folder in which a result would replace a file that the scene was read from, or unfinished work of the other kind, which
+// --resume could go on with. Throws Error (input).
+void check_folder(const std::filesystem::path& folder, const Scene& scene, ResultOf result);
 
 // Says that a finished run or day (`work`) lacks a file; returns nothing if its folder has it.
 [[nodiscard]] std::optional<std::string> lack_of(const std::filesystem::path& folder, std::string_view work,
                                                  const std::string& file);
 inline constexpr const char* cure_of_lack = "leave --resume out to compute it again";
 
-// Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end. Throws Error
-// (failure).
-void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, OldResults old = OldResults::remove_all);
+// Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end, and warns if a result of
+// the other kind is replaced. Throws Error (failure).
+void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, ResultOf result,
+                    OldResults old = OldResults::remove_all);
 
 // Prepares the folder of a day that resumes its earlier work there: keeps its steps, marks the summary as incomplete, and
 // removes files that were left half-written.

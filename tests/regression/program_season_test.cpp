@@ -346,6 +346,34 @@ TEST_F(Season, CtrlCKeepsWholeAndBrokenDates) {
   for (const auto& [name, bytes] : whole) EXPECT_TRUE(resumed.contains(name) && resumed.at(name) == bytes) << name;
 }
 
+TEST_F(Season, IsNotLostToARunInItsFolder) {
+  const Arguments quick{"run",      "scene.toml", "-o",       "out", "--device", "cpu",
+                        "--images", "none",       "--passes", "800", "--error",  "0.1"};
+  const auto expect_refused = [](const Outcome& outcome, const std::string& why) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  };
+  preload_signals(signal_at(SIGINT, "rename steps/step_", 2));
+  expect_day(one_day_, 130);
+  preload_nothing();
+  const Files kept = files("out");
+  expect_refused(run(quick),
+                 "out (it holds an unfinished day, which a run would replace); finish it with `sunfleck day --resume`");
+  EXPECT_EQ(files("out"), kept);
+  expect_day(one_day_ + Arguments{"--resume"});
+
+  preload_signals(signal_at(SIGINT, "rename run_state.bin", 1), {{"SUNFLECK_FAULT_STRIDE", "0.01"}});
+  const Outcome stopped = run(quick);
+  preload_nothing();
+  EXPECT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_NE(stopped.err.find("warning: out: this run replaces the result of another command there"), std::string::npos)
+      << stopped.err;
+  EXPECT_FALSE(exists("day.csv"));
+  expect_refused(day(one_day_),
+                 "out (it holds an unfinished run, which a day would replace); finish it with `sunfleck run --resume`");
+  EXPECT_EQ(run(quick + Arguments{"--resume"}).status, 0);
+}
+
 // The light of triangles, which several dates do not have, changes nothing else.
 TEST_F(Season, FieldsOfTrianglesAreOnlyAdded) {
   expect_day(three_days_, 0, "without");

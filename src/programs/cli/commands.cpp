@@ -44,7 +44,7 @@ int run(const RunOptions& asked) {
   Scene scene = load_scene_with_warnings(options);
   SolveSettings settings = solve_settings(options, scene, options.threads);
   check_pictures(options, scene.model);
-  check_inputs(folder, scene);
+  check_folder(folder, scene, ResultOf::run);
   check_grid(options, scene);
   const ProfileOverlays overlays = read_overlays(options, scene.model);
   Checkpoint checkpoint(folder, options.exports, scene, settings);
@@ -56,7 +56,8 @@ int run(const RunOptions& asked) {
   Simulation simulation(std::move(scene), options);
   ranks.gather(simulation, settings);
   watch_for_interrupts();
-  prepare_folder(folder, lock, found == Checkpoint::Found::begun ? OldResults::keep_checkpoint : OldResults::remove_all);
+  prepare_folder(folder, lock, ResultOf::run,
+                 found == Checkpoint::Found::begun ? OldResults::keep_checkpoint : OldResults::remove_all);
   if (options.resume) say(checkpoint.resume_line());
   say(device_line(simulation.device()));
 

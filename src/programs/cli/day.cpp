@@ -204,7 +204,7 @@ void open_day_folder(const fs::path& folder, FolderLock& lock, StepStore& store,
   if (resumed) {
     reopen_folder(folder);
   } else {
-    prepare_folder(folder, lock);
+    prepare_folder(folder, lock, ResultOf::day);
     store.begin();
   }
 }
@@ -228,7 +228,7 @@ int run_day(const DayOptions& asked) {
   const SolveSettings settings = settings_of(options, scene, plan);
   if (run.resume && !options.steps_together) options.steps_together = noted_steps_together(folder);
   plan_blocks(options, settings, scene.model, plan);
-  check_inputs(folder, scene);
+  check_folder(folder, scene, ResultOf::day);
   check_grid(run, scene);
   static_cast<void>(picture_band(scene.model, run.pictures.band));
   const ordered_json kept_settings = day_settings(options, scene, settings, plan, wanted_fields(run, plan.course));

@@ -140,8 +140,8 @@ void Outcome::write(const ResultRequest& request) const {
   const std::filesystem::path folder = result_folder(request, simulated_.scene->file);
   FolderLock lock(folder);
   check_pictures(request, simulated_.scene->model);
-  check_inputs(folder, *simulated_.scene);
-  prepare_folder(folder, lock);
+  check_folder(folder, *simulated_.scene, ResultOf::run);
+  prepare_folder(folder, lock, ResultOf::run);
   RunRecord record = simulated_.record;
   write_whole_result(folder, request, simulated_, record).throw_if_any();
 }

@@ -357,8 +357,8 @@ void LiveLight::save_if_asked() {
 
 void LiveLight::write(const std::filesystem::path& folder, const RadiationResult& result) {
   FolderLock lock(folder);
-  check_inputs(folder, simulation_.scene());
-  prepare_folder(folder, lock);
+  check_folder(folder, simulation_.scene(), ResultOf::run);
+  prepare_folder(folder, lock, ResultOf::run);
   SimulatedScene simulated = simulation_.simulated(settings_, result);
   if (has_receivers_) simulated.record.not_written.emplace_back("planes and sensors");
   save_scene({original_, granted_, simulation_.scene(), settings_.accuracy, options_.seed}, folder);

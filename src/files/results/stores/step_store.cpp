@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <ostream>
 #include <utility>
@@ -21,13 +22,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view step_mark = "SUNSTEP8";
+constexpr std::string_view step_mark = "SUNSTEP9";
 constexpr const char* steps_folder = "steps";
 constexpr const char* settings_file = "settings.json";
 constexpr const char* state_file = "block_state.bin";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 10;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 11;  // of the steps, and of the tables that a finished day has
 
 struct StepSizes {
   std::size_t fields = 0, maps = 0;  // numbers of values
@@ -64,6 +65,11 @@ void remove_file(const fs::path& file) {
   if (error) throw_failure(printable(file.string()), error.message(), "remove it, or choose another folder with -o");
 }
 
+// Returns whether a file holds a step or the state of a block, which a finished day no longer has.
+bool is_unfinished(const std::string& name) {
+  return name.starts_with("step_") || name == state_file;
+}
+
 // Removes finished steps, the state of a block, and temporary files.
 void remove_steps(const fs::path& folder) {
   std::error_code error;
@@ -71,7 +77,7 @@ void remove_steps(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const bool aside = is_left_aside(name, settings_file) || is_left_aside(name, state_file);
-    if (name.starts_with("step_") || name == state_file || aside) files.push_back(entry.path());
+    if (is_unfinished(name) || aside) files.push_back(entry.path());
   }
   for (const fs::path& file : files) remove_file(file);
 }
@@ -84,6 +90,13 @@ void remove_day_steps(const fs::path& result_folder) {
   remove_file(folder / settings_file);
   std::error_code not_empty;
   fs::remove(folder, not_empty);
+}
+
+bool holds_unfinished_day(const fs::path& result_folder) {
+  std::error_code error;
+  const fs::directory_iterator steps(result_folder / steps_folder, error);
+  return std::any_of(begin(steps), end(steps),
+                     [](const auto& entry) { return is_unfinished(entry.path().filename().string()); });
 }
 
 std::optional<ordered_json> noted_day_settings(const fs::path& result_folder) {

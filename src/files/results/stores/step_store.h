@@ -37,6 +37,9 @@ struct StoredStep {
 // Removes what a day left in `steps`; other files there are kept. Throws Error (failure).
 void remove_day_steps(const std::filesystem::path& result_folder);
 
+// Returns whether the folder holds steps of a day that is not finished.
+[[nodiscard]] bool holds_unfinished_day(const std::filesystem::path& result_folder);
+
 // Returns the settings that an earlier day noted in the folder, as parse_settings does; nothing if there are none.
 [[nodiscard]] std::optional<nlohmann::ordered_json> noted_day_settings(const std::filesystem::path& result_folder);
 
