@@ -49,7 +49,7 @@ StepStore store() {
 
 void feed_step(std::string_view bytes) {
   std::filesystem::create_directories(folder() / "steps");
-  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP8", bytes)));
+  static_cast<void>(write("steps/step_00007.bin", sealed_as("SUNSTEP9", bytes)));
   read_or_refuse([] {
     const auto step = store().read(7);
     if (step)
@@ -67,7 +67,7 @@ void feed_step_settings(std::string_view bytes) {
 }
 
 void feed_run_state(std::string_view bytes) {
-  static_cast<void>(write(run_state_file, sealed_as("SUNRUNS9", bytes)));
+  static_cast<void>(write(run_state_file, sealed_as("SUNRUNSA", bytes)));
   read_or_refuse([&] {
     const auto state = RunStore(folder(), {{"scene_digest", "0123"}, {"seed", 1}}).read(StateShape{2, 3, 2, 1.0});
     promise(state && state->replicates() >= 2 && state->sums.reals.size() == 2, "a state of this run");

@@ -106,6 +106,26 @@ TEST(AimedLight, OverReflectingSoilIsThatOfEvenlySpreadRays) {
   EXPECT_NEAR(soil_irradiance_w_m2(model, aimed, 0) / soil_irradiance_w_m2(model, even, 0), 1.0, 5e-3);
 }
 
+// Which rays meet an isolated stand is a matter of chance. Of 64 runs with 8 replicates the variance is known with a relative standard
+// error of sqrt(2 / 63), the mean of their own variances with one of sqrt(2 / 448): 0.19 together.
+TEST(AimedLight, IncidentFluxVariesAsItsErrorSays) {
+  const RadiationModel model = few_leaves(wide_plot, false);
+  const Prepared prepared(model);
+  constexpr int runs = 64;
+  ReplicateMean values;
+  double variance = 0.0;
+  for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+    const ScatterWork work{.rays = 2e4, .packets = 500, .replicates = 8, .seed = seed, .bound = 0.01};
+    const RadiationResult result = simulate(model, prepared, fixed_scatter(model, work));
+    const BandResult& band = result.bands[0];
+    EXPECT_GT(band.incident_half_width, 0.0);
+    values.add(band.incident);
+    variance += std::pow(band.incident_half_width / t_quantile(0.95, 8), 2.0) / runs;
+  }
+  const double seen = std::pow(values.standard_error(), 2.0) * runs;
+  EXPECT_NEAR(seen / variance, 1.0, 4.0 * 0.19);
+}
+
 // Without its own bound the light of a few leaves in an endless plot would be judged against what falls on the plot.
 TEST(JudgedError, OfSparseLeavesIsTheirOwn) {
   const RadiationModel model = paper_model(random_leaves(10, 1e-4, unit_plot, 0.1, 4), unit_plot, sun_at(45.0, 130.0));

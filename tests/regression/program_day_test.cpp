@@ -144,6 +144,7 @@ TEST_F(Day, TablesAreAsTheManualSays) {
       }
     }
   }
+  for (const char* band : bands) header += ',' + column(band, "unshot");
   EXPECT_EQ(day.header(), header);
   ASSERT_EQ(day.size(), 6U);
   EXPECT_EQ(day.cell(0, "time"), "2002-08-08T15:00:00+08:00");
@@ -157,6 +158,10 @@ TEST_F(Day, TablesAreAsTheManualSays) {
       EXPECT_GT(day.number(row, column("PAR", term)), 0.0);
     }
     for (const char* figure : {"PAR_absorbed_structure", "PAR_absorbed_structure_error"}) EXPECT_EQ(day.cell(row, figure), "0");
+    double left = day.number(row, "PAR_incident") - day.number(row, "PAR_unshot");
+    for (const char* term : {"absorbed_vegetation", "absorbed_structure", "absorbed_soil", "reflected", "transmitted"})
+      left -= day.number(row, column("PAR", term));
+    EXPECT_NEAR(left, 0.0, 1e-8 * day.number(row, "PAR_incident")) << "what arrived has gone somewhere";
   }
   for (std::size_t row = 4; row < 6; ++row) {  // sunset is at 19:17
     EXPECT_LT(day.number(row, "elevation_deg"), 0.0);

@@ -29,6 +29,7 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
       integer(term);
     }
     number(band.incident);
+    number(band.incident_half_width);
     number(band.unshot);
     estimates(
         std::array{band.absorbed_vegetation, band.absorbed_structure, band.absorbed_soil, band.reflected, band.transmitted});

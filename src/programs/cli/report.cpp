@@ -49,11 +49,13 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
   text += fmt::format("  device: {}{}\n", record.device.name,
                       record.device.kind == "vulkan" && record.device.software ? " (software Vulkan)" : "");
   for (const BandResult& band : result.bands) {
+    const std::string incident = band.incident_half_width > 0.0 ? with_error({band.incident, band.incident_half_width})
+                                                                : fmt::format("{:.4g}", band.incident);
     const std::string by_structures = has_structures(areas_m2) ? ", by structures " + with_error(band.absorbed_structure) : "";
     text += fmt::format(
-        "  {}: incident {:.4g} W m-2, absorbed by vegetation {}{}, by soil {}, reflected {}, transmitted {}, "
+        "  {}: incident {} W m-2, absorbed by vegetation {}{}, by soil {}, reflected {}, transmitted {}, "
         "unshot {:.2g}\n",
-        band.name, band.incident, with_error(band.absorbed_vegetation), by_structures, with_error(band.absorbed_soil),
+        band.name, incident, with_error(band.absorbed_vegetation), by_structures, with_error(band.absorbed_soil),
         with_error(band.reflected), with_error(band.transmitted), band.unshot);
   }
   if (model.has_beam()) {

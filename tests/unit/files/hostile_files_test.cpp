@@ -247,7 +247,7 @@ TEST(HostileFiles, DeepStoresAreRefused) {
   const StepStore store(folder.path(), model, {{"seed", 1}}, StepFields::kept);
   fs::create_directory(folder / "steps");
   const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(deep.data()), deep.size()));
-  std::string step = "SUNSTEP8";
+  std::string step = "SUNSTEP9";
   append(step, sum);
   static_cast<void>(folder.write("steps/step_00000.bin", step + deep));
   EXPECT_FALSE(store.read(0));

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::string_view state_mark = "SUNRUNS9";
+constexpr std::string_view state_mark = "SUNRUNSA";
 
 // Returns whether the file begins with the letters of a run's state and the digit of another version.
 bool is_of_another_version(std::string_view bytes) {

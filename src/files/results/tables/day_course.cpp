@@ -43,6 +43,7 @@ struct Sum {
 struct Sums {
   std::size_t steps = 0;
   std::vector<std::array<Sum, std::size(terms)>> bands;
+  std::vector<double> unshot;                              // [band]
   std::vector<Sum> organs;                                 // [organ * bands + band]
   std::vector<Sum> plants;                                 // [plant * bands + band]
   std::vector<Sum> kinds;                                  // [kind * bands + band]
@@ -74,9 +75,11 @@ struct Sums {
     }
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
+      unshot[b] += band.unshot * length_s;
       for (std::size_t t = 0; t < std::size(terms); ++t) {
         const Estimate& flux = band.*terms[t];
-        bands[b][t].add(flux, std::min(flux.half_width, band.unshot), length_s, shared_term(light, b, t));
+        const double may_be_unshot = t == 0 ? 0.0 : std::min(flux.half_width, band.unshot);
+        bands[b][t].add(flux, may_be_unshot, length_s, shared_term(light, b, t));
       }
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
@@ -91,18 +94,19 @@ struct Sums {
     }
   }
 
-  // Returns the error of a term of `terms` for steps that share packets; nothing for others. That of the incident flux is
-  // bounded by the sum over its parts; in an endless canopy the flux is exact.
+  // Returns the error of a term of `terms` for steps that share packets; nothing for others. In an endless canopy the incident flux
+  // is exact.
   static std::optional<double> shared_term(const StepLight& light, std::size_t band, std::size_t term) {
     if (!light.shares_packets) return std::nullopt;
     const JointErrors::Band& errors = light.of_shared.bands[band];
-    const double of_terms[] = {errors.vegetation, errors.structure, errors.soil, errors.reflected, errors.transmitted};
-    if (term > 0) return of_terms[term - 1];
-    return light.bands[band].incident.half_width > 0.0 ? std::accumulate(std::begin(of_terms), std::end(of_terms), 0.0) : 0.0;
+    const double of_terms[] = {errors.incident, errors.vegetation, errors.structure,
+                               errors.soil,     errors.reflected,  errors.transmitted};
+    return term > 0 || light.bands[band].incident.half_width > 0.0 ? of_terms[term] : 0.0;
   }
 
   void begin_like(const StepLight& light) {
     bands.resize(light.bands.size());
+    unshot.resize(light.bands.size());
     organs.resize(light.organ_absorbed.size());
     plants.resize(light.plant_absorbed_w.size());
     kinds.resize(light.kind_absorbed.size());
@@ -113,10 +117,10 @@ struct Sums {
   [[nodiscard]] DateSums sums() const {
     DateSums date;
     date.steps = steps;
-    for (const auto& band : bands) {
+    for (std::size_t b = 0; b < bands.size(); ++b) {
       StepBand sums;
-      for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = band[t].estimate();
-      sums.unshot = band.back().unshot;
+      for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = bands[b][t].estimate();
+      sums.unshot = unshot[b];
       date.bands.push_back(sums);
     }
     for (const Sum& organ : organs) date.organ_absorbed.push_back(organ.estimate());
@@ -171,14 +175,13 @@ std::string local_time_text(const UtcTime& time, int offset_minutes) {
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
   StepLight light;
   for (const BandResult& band : result.bands) {
-    StepBand step{{band.incident, 0.0}, band.absorbed_vegetation, band.absorbed_structure,
-                  band.absorbed_soil,   band.reflected,           band.transmitted,
-                  band.unshot};
-    if (!model.plot.periodic) {
-      step.incident.half_width = band.absorbed_vegetation.half_width + band.absorbed_structure.half_width +
-                                 band.absorbed_soil.half_width + band.reflected.half_width + band.transmitted.half_width;
-    }
-    light.bands.push_back(step);
+    light.bands.push_back({{band.incident, band.incident_half_width},
+                           band.absorbed_vegetation,
+                           band.absorbed_structure,
+                           band.absorbed_soil,
+                           band.reflected,
+                           band.transmitted,
+                           band.unshot});
   }
   for (const OrganResult& organ : result.organs) {
     light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());

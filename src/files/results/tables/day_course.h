@@ -89,8 +89,7 @@ struct StepLight {
 // Returns the number of points of all sensors together.
 [[nodiscard]] std::size_t sensor_points(const RadiationModel& model);
 
-// Returns the light of a step from its result. The incident flux of a periodic plot is exact. That of an isolated plot is
-// counted by rays: its half-width is the sum of the half-widths of its parts, which bounds it for any correlation between them.
+// Returns the light of a step from its result.
 [[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
 // Returns the light of an unlit step.
 [[nodiscard]] StepLight no_light(const RadiationModel& model);

@@ -63,13 +63,14 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   const RadiationModel& model = stand.model;
   const std::vector<DayStep>& steps = part.course.steps;
   const std::span<const StepLight> lights = part.lights;
-  Table table{"The course of the day; a step has the light of its middle, at night that of lamps alone",
-              "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected, "
-              "transmitted: W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: "
-              "half-width of the confidence interval",
-              {},
-              {lights.size()},
-              {}};
+  Table table{
+      "The course of the day; a step has the light of its middle, at night that of lamps alone",
+      "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected, "
+      "transmitted, unshot: W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: "
+      "half-width of the confidence interval",
+      {},
+      {lights.size()},
+      {}};
   add_step_times(table, part.course);
   table.add({"step_s", "s", "length of the step"}, [&](std::size_t i) { return steps[i].length_s; });
   table.add({"elevation_deg", "degree", "elevation of the sun at the middle of the step"},
@@ -92,6 +93,10 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
             [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
   add_classes(table, model, "of the leaves", model.plot.area_m2(), in_csv | in_arrays,
               [&](std::size_t i) { return &lights[i].leaf_classes; });
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    table.add({model.bands[b].name + "_unshot", "W m-2", "flux not followed to its end per ground area"},
+              [&, b](std::size_t i) { return lights[i].bands[b].unshot; });
+  }
   return table;
 }
 
@@ -99,12 +104,13 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
   const RadiationModel& model = stand.model;
   const std::vector<DateSums>& sums = part.sums;
   const std::vector<std::size_t> dates = part.dates();
-  Table table{"The light of each date: sums over its steps",
-              "steps: their number; incident, absorbed, reflected, transmitted: per ground area, MJ m-2 and mol of photons "
-              "m-2; _error: half-width of the confidence interval",
-              {},
-              {dates.size()},
-              {}};
+  Table table{
+      "The light of each date: sums over its steps",
+      "steps: their number; incident, absorbed, reflected, transmitted, unshot: per ground area, MJ m-2 and mol of photons "
+      "m-2; _error: half-width of the confidence interval",
+      {},
+      {dates.size()},
+      {}};
   add_dates(table, part);
   table.add({"steps", "1", "number of its steps"},
             [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
@@ -119,6 +125,10 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
     add("_absorbed_soil", "absorbed by soil", &StepBand::absorbed_soil);
     add("_reflected", "that left upwards", &StepBand::reflected);
     add("_transmitted", "that left downwards", &StepBand::transmitted);
+  }
+  for (std::size_t b = 0; b < model.bands.size(); ++b) {
+    table.add({model.bands[b].name + "_unshot_mj_m2", "MJ m-2", "energy not followed to its end per ground area"},
+              [&, b](std::size_t d) { return per_mega * sums[dates[d]].bands[b].unshot; });
   }
   return table;
 }

@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 
 // Returns the half-widths of the band's fluxes, each multiplied by `factor`.
 ordered_json half_widths_json(const BandResult& band, double factor) {
-  return {{"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width * factor)},
+  return {{"incident", number_or_null(band.incident_half_width * factor)},
+          {"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width * factor)},
           {"absorbed_structure", number_or_null(band.absorbed_structure.half_width * factor)},
           {"absorbed_soil", number_or_null(band.absorbed_soil.half_width * factor)},
           {"reflected", number_or_null(band.reflected.half_width * factor)},

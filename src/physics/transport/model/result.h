@@ -41,8 +41,8 @@ struct FluxLedger {
   }
 };
 
-// The flux balance of one band, W m-2 of ground. The half-widths include the unshot flux, which could still end up in any of
-// the five terms.
+// The flux balance of one band, W m-2 of ground. The half-widths of all but the incident flux include the unshot flux, which could
+// still end up in any of the five other terms.
 struct BandResult {
   std::string name;
   FluxLedger ledger;
@@ -50,6 +50,7 @@ struct BandResult {
   double unshot = 0.0;
   Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
   Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
+  double incident_half_width = 0.0;       // rays count the flux on an isolated stand; that on an endless canopy is exact
 };
 
 // The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no
@@ -102,11 +103,11 @@ struct LayerResult {
 // weights.
 struct JointErrors {
   struct Band {
-    double vegetation = 0.0, structure = 0.0, soil = 0.0, reflected = 0.0, transmitted = 0.0;
+    double incident = 0.0, vegetation = 0.0, structure = 0.0, soil = 0.0, reflected = 0.0, transmitted = 0.0;
 
     template <class Self, class Archive>
     static void visit(Self& self, Archive& archive) {
-      archive(self.vegetation, self.structure, self.soil, self.reflected, self.transmitted);
+      archive(self.incident, self.vegetation, self.structure, self.soil, self.reflected, self.transmitted);
     }
   };
 
@@ -115,7 +116,7 @@ struct JointErrors {
     archive(self.bands, self.organs, self.plants, self.groups, self.planes);
   }
 
-  std::vector<Band> bands;     // [band], absorbed by these or leaving, W m-2 of ground
+  std::vector<Band> bands;     // [band], arriving, absorbed by these or leaving, W m-2 of ground
   std::vector<double> organs;  // [organ * bands + band], absorbed, W m-2 of organ
   std::vector<double> plants;  // [plant * bands + band], absorbed, W of the plant
   std::vector<double> groups;  // [group * bands + band], absorbed by the organs of a group, W m-2 of ground

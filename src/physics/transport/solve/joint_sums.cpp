@@ -6,7 +6,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::size_t terms = 5;
+constexpr std::size_t terms = 6;
 
 // Adds weighted values to sums, one after the other.
 class Adder {
@@ -73,7 +73,8 @@ JointSums::Figures<double> JointSums::last_values(std::span<const std::unique_pt
   return weighted([&](std::size_t light, Adders& to) {
     const RunSums& sums = *lights[light];
     for (const BandMeans& band : sums.bands) {
-      for (const auto* mean : {&band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
+      for (const auto* mean :
+           {&band.incident, &band.vegetation, &band.structure, &band.soil, &band.reflected, &band.transmitted})
         to.bands.add(mean->last());
     }
     for (const OrganMeans& organ : sums.organs) {
@@ -92,6 +93,7 @@ JointSums::Figures<double> JointSums::half_widths(std::span<const RadiationResul
   return weighted([&](std::size_t light, Adders& to) {
     const RadiationResult& result = lights[light];
     for (const BandResult& band : result.bands) {
+      to.bands.add(band.incident_half_width);
       for (const auto* flux :
            {&band.absorbed_vegetation, &band.absorbed_structure, &band.absorbed_soil, &band.reflected, &band.transmitted})
         to.bands.add(flux->half_width);
@@ -135,7 +137,7 @@ JointErrors JointSums::errors(double t_quantile, std::span<const RadiationResult
                      errors_of(means_.planes, bounds.planes)};
   for (std::size_t b = 0; b < bands_; ++b) {
     const double* const term = &bands[b * terms];
-    errors.bands.push_back({term[0], term[1], term[2], term[3], term[4]});
+    errors.bands.push_back({term[0], term[1], term[2], term[3], term[4], term[5]});
   }
   return errors;
 }

@@ -157,6 +157,9 @@ class Addition {
       const double indirect_vegetation = static_cast<double>(packets.absorbed_vegetation) * per_quantum;
       const double indirect_soil = static_cast<double>(packets.absorbed_soil) * per_quantum;
       const double direct = share_ * conversion_.beam_w_m2(b);
+      const double incident =
+          static_cast<double>(direct_.met + direct_.lost) * direct + static_cast<double>(packets.incident) * per_quantum;
+      sums_.bands[b].incident.add(model_.plot.periodic ? 0.0 : incident);
       sums_.bands[b].vegetation.add(first_vegetation * direct + indirect_vegetation);
       sums_.bands[b].structure.add(first_structure * direct + static_cast<double>(packets.absorbed_structure) * per_quantum);
       sums_.bands[b].soil.add(first_soil * direct + indirect_soil);

@@ -18,6 +18,7 @@
 namespace sunfleck {
 
 struct BandMeans {                                                    // W m-2 of ground
+  ReplicateMean incident;                                             // of an isolated stand; 0 in an endless canopy
   ReplicateMean vegetation, structure, soil, reflected, transmitted;  // total flux absorbed or leaving
   ReplicateMean indirect_vegetation, indirect_soil;                   // absorbed flux except from the beam's first landings
 };
@@ -114,8 +115,8 @@ void RunSums::visit(Self& self, Archive& archive) {
             ledger.transmitted, ledger.unshot);
   }
   for (auto& band : self.bands) {
-    archive(band.vegetation, band.structure, band.soil, band.reflected, band.transmitted, band.indirect_vegetation,
-            band.indirect_soil);
+    archive(band.incident, band.vegetation, band.structure, band.soil, band.reflected, band.transmitted,
+            band.indirect_vegetation, band.indirect_soil);
   }
   for (auto& organ : self.organs) {
     archive(organ.landed, organ.sunlit, organ.direct, organ.indirect, organ.absorbed, organ.indirect_absorbed);

@@ -63,7 +63,7 @@ class DayResult:
         """The columns of day.csv as arrays of shape (steps,): time (texts: the start of each step with its UTC
         offset), step_s, elevation_deg and azimuth_deg (at the midpoint of the step), BAND_incident, BAND_absorbed_vegetation,
         BAND_absorbed_structure, BAND_absorbed_soil, BAND_reflected, BAND_transmitted (W m-2 of ground) and sunlit_leaf_fraction,
-        these with their half-widths _error."""
+        these with their half-widths _error, and BAND_unshot."""
         return self._columns("day.csv")
 
     @functools.cached_property

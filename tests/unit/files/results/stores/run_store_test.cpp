@@ -99,10 +99,10 @@ TEST_F(RunStoreTest, ReadsNoStateOfAnotherVersion) {
 // The checksum is right, but this program writes other maps.
 TEST_F(RunStoreTest, ReadsNoStateOfAnotherForm) {
   store_.write(test::view_of(state_));
-  const json good = *unsealed("SUNRUNS9", bytes());
+  const json good = *unsealed("SUNRUNSA", bytes());
   const auto expect_refused = [&](const json& content) {
     std::ostringstream bytes;
-    seal(bytes, "SUNRUNS9", content);
+    seal(bytes, "SUNRUNSA", content);
     folder_.write(run_state_file, bytes.str());
     EXPECT_NE(refusal().find("it is damaged"), std::string::npos)
         << content.dump(-1, ' ', true, json::error_handler_t::replace);

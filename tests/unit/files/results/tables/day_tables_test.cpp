@@ -76,7 +76,16 @@ TEST(DayTables, IncidentFluxOfAnIsolatedPlotHasAnError) {
   EXPECT_EQ(endless.bands[0].incident.value, 100.0);
   EXPECT_EQ(endless.bands[0].incident.half_width, 0.0);
   EXPECT_EQ(endless.bands[0].unshot, 1.0);
-  EXPECT_EQ(step_light(two_organs(false), result).bands[0].incident.half_width, 7.5);
+  result.bands[0].incident_half_width = 2.5;
+  const StepLight isolated = step_light(two_organs(false), result);
+  EXPECT_EQ(isolated.bands[0].incident.half_width, 2.5);
+  DayCourse course = three_steps();
+  const std::vector<DateSums> sums = sum_dates(course, std::vector<StepLight>(3, isolated));
+  double squares = 0.0;
+  for (const DayStep& step : course.steps) {
+    if (step.date == 0) squares += std::pow(2.5 * step.length_s, 2.0);
+  }
+  EXPECT_NEAR(sums[0].bands[0].incident.half_width, std::sqrt(squares), 1e-9) << "unshot flux has arrived";
 }
 
 TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
@@ -131,6 +140,7 @@ TEST(DayTables, DayIsWrittenStepByStep) {
   EXPECT_EQ(table.number(0, "B_absorbed_soil"), 25.0);
   EXPECT_EQ(table.number(0, "B_absorbed_soil_error"), 3.0);
   EXPECT_EQ(table.number(0, "B_transmitted"), 6.25);
+  EXPECT_EQ(table.number(0, "B_unshot"), 1.0);
   EXPECT_EQ(table.number(0, "sunlit_leaf_fraction"), 0.5);
   EXPECT_EQ(table.cell(1, "A_incident"), "0");
   EXPECT_EQ(table.cell(1, "sunlit_leaf_fraction_error"), "0");
@@ -158,6 +168,7 @@ TEST(DayTables, DatesHaveSums) {
   EXPECT_EQ(table.number(0, "A_absorbed_soil_mj_m2"), 0.045);
   EXPECT_EQ(table.number(0, "B_reflected_mj_m2"), 0.0225);
   EXPECT_EQ(table.number(0, "B_transmitted_mj_m2"), 0.01125);
+  EXPECT_EQ(table.number(0, "B_unshot_mj_m2"), 0.0018);
   EXPECT_EQ(table.cell(1, "date"), "2003-01-01");
   EXPECT_EQ(table.number(1, "A_incident_mj_m2"), 0.006);
 }
