@@ -58,7 +58,7 @@ double largest_excess(const std::vector<TradeoffLevel>& levels, Quantity quantit
 // clamped to the limits.
 double interpolated(const std::vector<Step>& steps, double Step::*from, double Step::*to, double at, double least_slope,
                     double most_slope) {
-  if (steps.size() == 1) return steps[0].*to + most_slope * (at - steps[0].*from);
+  if (steps.size() == 1) return steps[0].*to;
   std::size_t i = 1;
   while (i + 1 < steps.size() && steps[i].*from > at) ++i;
   const Step& wide = steps[i - 1];
@@ -131,13 +131,14 @@ std::optional<Recommendation> recommend(const std::vector<TradeoffLevel>& levels
   const double wanted = std::log(requested_error / found.margin);
   double bound = steps.front().bound;
   if (steps.front().error > wanted) {
+    if (steps.size() == 1) return {};
     // Lowering the error by one logarithmic unit lowers the bound by 1 / slope.
     bound = interpolated(steps, &Step::error, &Step::bound, wanted, 1.0 / most_error_slope, 1.0 / least_error_slope);
   }
   found.bound = two_digits_down(std::exp(bound));
   bound = std::log(found.bound);
-  if (bound < steps.back().bound + std::log(least_extrapolated)) return {};
   found.extrapolated = bound < steps.back().bound - 0.01;
+  if (bound < steps.back().bound + std::log(least_extrapolated)) return {};
   found.expected = std::exp(interpolated(steps, &Step::bound, &Step::error, bound, least_error_slope, most_error_slope));
   // A wider bound takes less time, so the slope of the seconds is negative.
   found.seconds = std::exp(interpolated(steps, &Step::bound, &Step::seconds, bound, -most_time_slope, 0.0));

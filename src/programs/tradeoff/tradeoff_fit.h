@@ -26,7 +26,7 @@ struct WorkAndError {
 // largest factor by which any measured run exceeds the root mean square of its own setting. With n measured runs that is a
 // distribution-free tolerance limit (Wilks 1941, Annals of Mathematical Statistics 12:91): nine of ten further runs meet it
 // except with probability 0.9^n, 3 % for 32. A bound beyond the finest setting is extrapolated and marked as such. None without
-// settings, or if the bound would be less than a tenth of the finest setting's.
+// settings, if a single one would have to be extrapolated, or if the bound would be less than a tenth of the finest setting's.
 [[nodiscard]] std::optional<Recommendation> recommend(const std::vector<TradeoffLevel>& levels, double requested_error,
                                                       Quantity quantity);
 

@@ -179,6 +179,15 @@ TEST(Recommendation, GoesBeyondTheFinestRungAndSaysSo) {
   EXPECT_NEAR(recommend(flat, 0.01, Quantity::organ)->bound, 0.005, 1e-12);
 }
 
+TEST(Recommendation, OfASingleRungIsNotExtrapolated) {
+  const std::vector<TradeoffLevel> level{bound_level(0.02, 4.0, {0.02})};
+  const auto found = recommend(level, 0.03, Quantity::organ);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->bound, 0.02, 1e-12);
+  EXPECT_NEAR(found->seconds, 4.0, 1e-9);
+  EXPECT_FALSE(recommend(level, 0.015, Quantity::organ));
+}
+
 TEST(Recommendation, GoesNoFurtherThanATenthOfTheFinestRung) {
   const std::vector<TradeoffLevel> levels{bound_level(0.04, 1.0, {0.04}), bound_level(0.02, 4.0, {0.02})};
   const auto found = recommend(levels, 0.00201, Quantity::organ);
