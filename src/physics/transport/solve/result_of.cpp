@@ -96,7 +96,7 @@ class ResultMaker {
       return Estimate{static_cast<double>(quanta) * per_quantum, of_mean.half_width + result.unshot};
     };
     const double any = events_.largest_w_m2(band);
-    if (!model_.plot.periodic)
+    if (!model_.plot.periodic && (model_.has_beam() || model_.has_sky()))  // what lamps emit is exact
       result.incident_half_width = sums_.bands[band].incident.estimate(quantile_, unseen(any)).half_width;
     const double packet = scatters(model_, band) ? events_.other_w_m2[band] : 0.0;
     const double beam = areas_.beam_meets_canopy() ? events_.beam_w_m2[band] : 0.0;
