@@ -255,6 +255,14 @@ nlohmann::json command_of(const nlohmann::json& summary) {
   return summary.value("command", nlohmann::json("run"));  // that of a run does not say
 }
 
+std::optional<std::string> other_result_in(const std::filesystem::path& folder, ResultOf result) {
+  const std::optional<nlohmann::json> summary = summary_in(folder);
+  if (!summary || !summary->contains("settings")) return std::nullopt;
+  const nlohmann::json command = command_of(*summary);
+  if (command == name_of(result)) return std::nullopt;
+  return printable(command.dump());
+}
+
 std::optional<std::string> lack_of(const std::filesystem::path& folder, std::string_view work, const std::string& file) {
   std::error_code error;
   if (std::filesystem::exists(folder / file, error)) return std::nullopt;
@@ -265,8 +273,7 @@ void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, Resul
   lock.make_folder();
   std::error_code error;
   const bool of_earlier_run = std::filesystem::exists(folder / summary_file, error);
-  const std::optional<nlohmann::json> earlier = summary_in(folder);
-  if (earlier && earlier->contains("settings") && command_of(*earlier) != name_of(result))
+  if (other_result_in(folder, result))
     warn(fmt::format("{}: this {} replaces the result of another command there", printable(folder.string()), name_of(result)));
   const auto is_stale = [old](const std::string& name) {
     return is_file_of_runs(name) && (old == OldResults::remove_all || name != run_state_file);

@@ -36,6 +36,9 @@ enum class OldResults { remove_all, keep_checkpoint };
 // The two kinds of results that a folder may hold, never together.
 enum class ResultOf { run, day };
 
+// Returns the command whose result the folder holds, quoted, if it is another than this; nothing for one that has only begun.
+[[nodiscard]] std::optional<std::string> other_result_in(const std::filesystem::path& folder, ResultOf result);
+
 // Refuses a folder in which a result would replace a file that the scene was read from, or unfinished work of the other kind, which
 // --resume could go on with. Throws Error (input).
 void check_folder(const std::filesystem::path& folder, const Scene& scene, ResultOf result);
@@ -45,8 +48,8 @@ void check_folder(const std::filesystem::path& folder, const Scene& scene, Resul
                                                  const std::string& file);
 inline constexpr const char* cure_of_lack = "leave --resume out to compute it again";
 
-// Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end, and warns if a result of
-// the other kind is replaced. Throws Error (failure).
+// Creates, locks and test-writes the folder before any ray is traced, so that no result is lost at the end, and warns if a
+// result of the other kind is replaced. Throws Error (failure).
 void prepare_folder(const std::filesystem::path& folder, FolderLock& lock, ResultOf result,
                     OldResults old = OldResults::remove_all);
 

@@ -190,12 +190,10 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
 
 // Throws Error (input) if the folder holds the result of another command, which a day that begins would remove.
 void expect_no_other_result(const fs::path& folder) {
-  const std::optional<nlohmann::json> summary = summary_in(folder);
-  if (!summary || !summary->contains("settings")) return;  // of a command that has only begun
-  const nlohmann::json command = command_of(*summary);
-  if (command == "day") return;
+  const std::optional<std::string> command = other_result_in(folder, ResultOf::day);
+  if (!command) return;
   throw_input(fmt::format("--resume {}", printable(folder.string())),
-              fmt::format("the folder holds the result of {}, not of a day", printable(command.dump())),
+              fmt::format("the folder holds the result of {}, not of a day", *command),
               "choose another folder with -o, or omit --resume to replace that result");
 }
 

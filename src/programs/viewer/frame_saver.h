@@ -1,5 +1,5 @@
 #pragma once
-// Saves the pictures that a window shows while it goes on.
+// Saves the picture that a window shows, in a thread of its own.
 
 #include "programs/viewer/live_picture.h"
 

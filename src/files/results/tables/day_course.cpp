@@ -40,10 +40,32 @@ struct Sum {
   [[nodiscard]] Estimate estimate() const { return {random.value, random.half_width + unshot}; }
 };
 
+// Sums of the fluxes of a band over steps or dates.
+struct BandSum {
+  std::array<Sum, std::size(terms)> of_terms;
+  double unshot = 0.0;
+
+  // `shared_half_width(term)` returns the error of a flux that was simulated together with others; nothing for one by itself. What
+  // arrived cannot be unshot.
+  template <class SharedHalfWidth>
+  void add(const StepBand& band, double length_s, const SharedHalfWidth& shared_half_width) {
+    unshot += band.unshot * length_s;
+    for (std::size_t t = 0; t < std::size(terms); ++t) {
+      const Estimate& flux = band.*terms[t];
+      of_terms[t].add(flux, t == 0 ? 0.0 : std::min(flux.half_width, band.unshot), length_s, shared_half_width(t));
+    }
+  }
+  [[nodiscard]] StepBand estimate() const {
+    StepBand sums;
+    for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = of_terms[t].estimate();
+    sums.unshot = unshot;
+    return sums;
+  }
+};
+
 struct Sums {
   std::size_t steps = 0;
-  std::vector<std::array<Sum, std::size(terms)>> bands;
-  std::vector<double> unshot;                              // [band]
+  std::vector<BandSum> bands;                              // [band]
   std::vector<Sum> organs;                                 // [organ * bands + band]
   std::vector<Sum> plants;                                 // [plant * bands + band]
   std::vector<Sum> kinds;                                  // [kind * bands + band]
@@ -75,12 +97,7 @@ struct Sums {
     }
     for (std::size_t b = 0; b < bands.size(); ++b) {
       const StepBand& band = light.bands[b];
-      unshot[b] += band.unshot * length_s;
-      for (std::size_t t = 0; t < std::size(terms); ++t) {
-        const Estimate& flux = band.*terms[t];
-        const double may_be_unshot = t == 0 ? 0.0 : std::min(flux.half_width, band.unshot);
-        bands[b][t].add(flux, may_be_unshot, length_s, shared_term(light, b, t));
-      }
+      bands[b].add(band, length_s, [&](std::size_t term) { return shared_term(light, b, term); });
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
       const auto add_to = [&](std::vector<Sum>& sums, const std::vector<Estimate>& fluxes,
@@ -106,7 +123,6 @@ struct Sums {
 
   void begin_like(const StepLight& light) {
     bands.resize(light.bands.size());
-    unshot.resize(light.bands.size());
     organs.resize(light.organ_absorbed.size());
     plants.resize(light.plant_absorbed_w.size());
     kinds.resize(light.kind_absorbed.size());
@@ -117,12 +133,7 @@ struct Sums {
   [[nodiscard]] DateSums sums() const {
     DateSums date;
     date.steps = steps;
-    for (std::size_t b = 0; b < bands.size(); ++b) {
-      StepBand sums;
-      for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = bands[b][t].estimate();
-      sums.unshot = unshot[b];
-      date.bands.push_back(sums);
-    }
+    for (const BandSum& band : bands) date.bands.push_back(band.estimate());
     for (const Sum& organ : organs) date.organ_absorbed.push_back(organ.estimate());
     for (const Sum& plant : plants) date.plant_absorbed.push_back(plant.estimate());
     for (const Sum& kind : kinds) date.kind_absorbed.push_back(kind.estimate());
@@ -238,6 +249,14 @@ std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLig
   std::vector<DateSums> sums;
   for (const Sums& date : dates) sums.push_back(date.sums());
   return sums;
+}
+
+StepBand sum_over_dates(std::span<const DateSums> dates, std::size_t band) {
+  BandSum sum;
+  for (const DateSums& date : dates) {
+    if (date.steps > 0) sum.add(date.bands[band], 1.0, [](std::size_t) { return std::nullopt; });
+  }
+  return sum.estimate();
 }
 
 }  // namespace sunfleck

@@ -117,4 +117,7 @@ inline constexpr double per_mega = 1e-6;
 // Returns one entry per date, empty for a date without steps. `lights` holds the light of the first steps of the course.
 [[nodiscard]] std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLight> lights);
 
+// Returns the sums of a band over all dates, whose random errors are independent as those of separate steps are.
+[[nodiscard]] StepBand sum_over_dates(std::span<const DateSums> dates, std::size_t band);
+
 }  // namespace sunfleck

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -67,22 +66,6 @@ std::string sums_line(const std::string& when, const std::string& band, const St
   return line + '\n';
 }
 
-// Adds sums of a date. Dates have their own random numbers, so that their random errors add in quadrature, while unshot flux, a part of
-// the half-widths, may err in the same direction on all dates.
-class SeasonSum {
- public:
-  void add(const Estimate& of_date, double unshot) {
-    const double may_be_unshot = std::min(of_date.half_width, unshot);
-    value_ += of_date.value;
-    unshot_ += may_be_unshot;
-    squares_ += (of_date.half_width - may_be_unshot) * (of_date.half_width - may_be_unshot);
-  }
-  [[nodiscard]] Estimate estimate() const { return {value_, std::sqrt(squares_) + unshot_}; }
-
- private:
-  double value_ = 0.0, squares_ = 0.0, unshot_ = 0.0;
-};
-
 // Returns the sums over all dates, a line for each band.
 std::string season_lines(const DaySummary& day) {
   const auto dates = std::count_if(day.sums.begin(), day.sums.end(), [](const DateSums& date) { return date.steps > 0; });
@@ -90,16 +73,8 @@ std::string season_lines(const DaySummary& day) {
   const std::string& last = day.course.dates[static_cast<std::size_t>(dates) - 1];
   const std::string when = fmt::format("{} to {}, {} dates,", day.course.dates.front(), last, dates);
   std::string text;
-  for (std::size_t b = 0; b < day.model.bands.size(); ++b) {
-    std::array<SeasonSum, named_terms.size()> sums;
-    for (const DateSums& date : day.sums) {
-      for (std::size_t t = 0; date.steps > 0 && t < sums.size(); ++t)
-        sums[t].add(date.bands[b].*named_terms[t].second, date.bands[b].unshot);
-    }
-    StepBand whole;
-    for (std::size_t t = 0; t < sums.size(); ++t) whole.*named_terms[t].second = sums[t].estimate();
-    text += sums_line(when, day.model.bands[b].name, whole);
-  }
+  for (std::size_t b = 0; b < day.model.bands.size(); ++b)
+    text += sums_line(when, day.model.bands[b].name, sum_over_dates(day.sums, b));
   return text;
 }
 

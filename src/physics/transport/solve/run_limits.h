@@ -22,7 +22,7 @@ class RunLimits {
   // Returns true once the run has to end, and keeps the reason. Any thread may call it.
   [[nodiscard]] bool must_stop();
 
-  // Returns true if so many rays and packets after those traced would be more than max_rays, and keeps the reason.
+  // Returns true if the `next` rays and packets would take those traced beyond max_rays, and keeps the reason.
   [[nodiscard]] bool lacks_rays(std::uint64_t traced, std::uint64_t next);
 
   // Returns how many more replicates the limits allow if each takes so long, and as many rays as those made so far.

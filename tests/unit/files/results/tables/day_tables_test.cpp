@@ -128,6 +128,16 @@ TEST(DayTables, ErrorsOfStepsThatSharePacketsAreThoseOfTheirSum) {
   EXPECT_EQ(dates[1].bands[0].reflected.half_width, 3000.0);
 }
 
+TEST(DayTables, DatesAddUpLikeSteps) {
+  const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), light(200.0, 4.0, 1.0), light(10.0, 5.0, 1.0)};
+  const std::vector<DateSums> dates = sum_dates(three_steps(), lights);
+  const StepBand all = sum_over_dates(dates, 1);
+  EXPECT_EQ(all.absorbed_soil.value, dates[0].bands[1].absorbed_soil.value + dates[1].bands[1].absorbed_soil.value);
+  const double first = std::hypot(3.0 * 1800.0, 3.0 * 600.0), second = 4.0 * 600.0;
+  EXPECT_NEAR(all.absorbed_soil.half_width, std::hypot(first, second) + 3000.0, 1e-8);
+  EXPECT_EQ(all.unshot, 3000.0);
+}
+
 TEST(DayTables, DayIsWrittenStepByStep) {
   const RadiationModel model = two_organs();
   const std::vector<StepLight> lights{light(100.0, 3.0, 1.0), no_light(model), light(10.0, no_value, 0.0)};
