@@ -114,7 +114,7 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const double throughout = canopy_bytes(model) + tree_bytes + on_device;
   const auto computing = [&](const SumBytes& sums) {
     return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
-                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, elements * stored});
+                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, sums.result + elements * stored});
   };
   const SumBytes drawn = sum_bytes(model, tree.layout, settings.element_errors, *run);
   const SumBytes plain = sum_bytes(model, tree.layout, without_pictures, *run);

@@ -54,6 +54,10 @@ void keep_freed_memory() {
   static_cast<void>(::mallctl("arena.0.dirty_decay_ms", nullptr, nullptr, &decay_ms, sizeof decay_ms));
 }
 
+void return_freed_memory() {
+  if (::mallctl != nullptr) static_cast<void>(::mallctl("arena.0.purge", nullptr, nullptr, nullptr, 0));
+}
+
 int finish_output(int status) {
   errno = 0;
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;

@@ -11,6 +11,9 @@ void prepare_process();
 // otherwise it goes back to the system within ten seconds. Does nothing without jemalloc (programs/allocator.cpp).
 void keep_freed_memory();
 
+// Returns to the system at once what has been freed, before something else needs as much. Does nothing without jemalloc.
+void return_freed_memory();
+
 // Call at the very end. Flushes standard output; if that fails the run failed, unless the reader merely stopped reading.
 // Returns the exit status.
 [[nodiscard]] int finish_output(int status);

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "files/results/tables/judged_figure.h"
 #include "pictures/charts/picture.h"
+#include "programs/cli/process.h"
 #include "programs/cli/report.h"
 #include "simulate/interrupt.h"
 #include "simulate/result_folder.h"
@@ -64,7 +65,9 @@ Monitor terminal_monitor(ProgressLine& line) {
 SimulatedScene simulate_at_terminal(Simulation& simulation, const SolveSettings& settings, Checkpoint* checkpoint,
                                     Ranks* ranks) {
   ProgressLine line("simulating");
-  return simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
+  SimulatedScene simulated = simulation.run(settings, {terminal_monitor(line), checkpoint, ranks});
+  return_freed_memory();  // pictures and stores take as much again
+  return simulated;
 }
 
 int exit_status(StopReason stop) {
