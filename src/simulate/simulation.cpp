@@ -35,7 +35,7 @@ constexpr double least_judged_share = 0.01;
 std::optional<SensorBound> sensor_bound(const SolveSettings& settings, const RadiationResult& result, const Stopwatch& watch) {
   if (settings.accuracy.of != ErrorTarget::sensors || settings.grid_m || settings.passes) return std::nullopt;
   SensorBound bound{settings.accuracy.indirect, {}, {}, {}};
-  for (const BandResult& band : result.bands) bound.least_w_m2.push_back(least_judged_share * band.incident);
+  for (const BandResult& band : result.bands) bound.least_w_m2.push_back(least_judged_share * band.incident.value);
   bound.time_is_up = [&settings, &watch, is_over = !is_done(result.stop)] {
     return is_over || (settings.max_seconds && watch.seconds() >= *settings.max_seconds);
   };

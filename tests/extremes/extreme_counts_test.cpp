@@ -66,7 +66,7 @@ TEST(ExtremeCounts, EightBillionRaysInARun) {
   EXPECT_EQ(result.direct.rays, std::uint64_t{1} << 33U);
   EXPECT_EQ(result.elements[0].upper, std::uint64_t{3} << 31U);
   EXPECT_EQ(result.soil_cells[0], std::uint64_t{1} << 31U);
-  EXPECT_NEAR(result.bands[0].incident, 1.0, 1e-12);
+  EXPECT_NEAR(result.bands[0].incident.value, 1.0, 1e-12);
   EXPECT_NEAR(result.bands[0].absorbed_vegetation.value, 0.75, 1e-12);
   EXPECT_NEAR(result.bands[0].absorbed_soil.value, 0.25, 1e-12);
   EXPECT_NEAR(result.ground_sunfleck_ratio.value, 0.25, 1e-12);
@@ -88,7 +88,7 @@ TEST(ExtremeCounts, ARunHasNoMoreReplicatesThanItsLedgersHold) {
   EXPECT_EQ(result.direct.rays, most_replicates * max_grid_rays);
   EXPECT_GT(result.bands[0].ledger.incident, std::int64_t{1} << 61U);
   EXPECT_EQ(result.bands[0].ledger.residual(), 0);
-  EXPECT_NEAR(result.bands[0].incident, 1.0, 1e-9);
+  EXPECT_NEAR(result.bands[0].incident.value, 1.0, 1e-9);
   EXPECT_NEAR(result.bands[0].absorbed_vegetation.value, 0.375, 0.01);
   EXPECT_NEAR(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, 1.0, 1e-9);
 }

@@ -55,17 +55,17 @@ TEST_F(ExtremeLight, BeamAndSkyOfAnySizeInTwentyBands) {
     const RadiationResult result = run(model, fixed_scatter(model, {.rays = 8e4, .packets = 2000, .replicates = 8}));
     const BandResult& sun = result.bands[lights.size() - 2];
     const BandResult& sky = result.bands.back();
-    EXPECT_NEAR(sun.incident, plot.periodic ? 1.0 : sun.incident, 1e-12);
-    EXPECT_NEAR(sky.incident, plot.periodic ? 1.0 : sky.incident, 1e-12);
+    EXPECT_NEAR(sun.incident.value, plot.periodic ? 1.0 : sun.incident.value, 1e-12);
+    EXPECT_NEAR(sky.incident.value, plot.periodic ? 1.0 : sky.incident.value, 1e-12);
     for (std::size_t b = 0; b < lights.size(); ++b) {
       const BandResult& band = result.bands[b];
       const auto expected = [&](double of_sun, double of_sky) {
         return lights[b].direct_w_m2 * of_sun + lights[b].diffuse_w_m2 * of_sky;
       };
-      const double incident = expected(sun.incident, sky.incident);
+      const double incident = expected(sun.incident.value, sky.incident.value);
       const double tolerance = (1e-9 + left_out) * incident;
       EXPECT_GT(band.ledger.incident, 0);
-      EXPECT_NEAR(band.incident, incident, tolerance) << band.name;
+      EXPECT_NEAR(band.incident.value, incident, tolerance) << band.name;
       EXPECT_NEAR(band.absorbed_vegetation.value, expected(sun.absorbed_vegetation.value, sky.absorbed_vegetation.value),
                   tolerance);
       EXPECT_NEAR(band.absorbed_soil.value, expected(sun.absorbed_soil.value, sky.absorbed_soil.value), tolerance);
@@ -82,9 +82,9 @@ TEST_F(ExtremeLight, ScatteredLightOfAnySizeInTwentyBands) {
   for (std::size_t b = 0; b < lights.size(); ++b) {
     const double incident = lights[b].direct_w_m2 + lights[b].diffuse_w_m2;
     const BandResult& band = result.bands[b];
-    EXPECT_NEAR(band.incident, incident, (1e-9 + left_out) * incident) << band.name;
+    EXPECT_NEAR(band.incident.value, incident, (1e-9 + left_out) * incident) << band.name;
     const double out = band.absorbed_vegetation.value + band.absorbed_soil.value + band.reflected.value + band.unshot;
-    EXPECT_NEAR(out, band.incident, 1e-9 * incident);
+    EXPECT_NEAR(out, band.incident.value, 1e-9 * incident);
     for (const Estimate& part : {band.absorbed_vegetation, band.absorbed_soil, band.reflected}) {
       EXPECT_GT(part.value, 0.05 * incident);
       EXPECT_LT(part.value, 0.8 * incident);
@@ -99,7 +99,7 @@ TEST_F(ExtremeLight, NextToNothingIsInProportionOrNothing) {
       {"one", 1.0, 1.0}, {"faint", 1e-250, 1e-250}, {"none", 1e-305, 1e-305}, {"subnormal", 5e-324, 0.0}, {"dark", 0.0, 0.0}};
   set_lights(model, lights, {0.45, 0.45}, 0.2);
   const RadiationResult result = run(model, fixed_scatter(model, {.rays = 4e4, .packets = 2000, .replicates = 8}));
-  EXPECT_NEAR(result.bands[1].incident / 2e-250, 1.0, 1e-9);
+  EXPECT_NEAR(result.bands[1].incident.value / 2e-250, 1.0, 1e-9);
   EXPECT_EQ(result.bands[0].ledger.incident, result.bands[1].ledger.incident);
   for (std::size_t b = 2; b < lights.size(); ++b) {
     EXPECT_EQ(result.bands[b].ledger.incident, 0) << b;
@@ -142,7 +142,7 @@ TEST_F(ExtremeLight, NothingIsAbsorbedWhereNothingAbsorbs) {
       EXPECT_EQ(band.ledger.absorbed_vegetation, 0) << band.name;
       EXPECT_EQ(band.ledger.absorbed_soil, 0) << band.name;
       EXPECT_EQ(band.ledger.reflected + band.ledger.transmitted + band.ledger.unshot, band.ledger.incident) << band.name;
-      EXPECT_LE(band.unshot, 0.1 * 1e-4 * 0.01 * band.incident) << band.name;
+      EXPECT_LE(band.unshot, 0.1 * 1e-4 * 0.01 * band.incident.value) << band.name;
     }
   }
 }

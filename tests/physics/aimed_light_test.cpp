@@ -94,9 +94,9 @@ TEST(AimedLight, OverReflectingSoilIsThatOfEvenlySpreadRays) {
     const BandResult& got = aimed.bands[b];
     const BandResult& expected = even.bands[b];
     EXPECT_LE(got.absorbed_vegetation.half_width, 0.01 * got.absorbed_vegetation.value);
-    const double all = got.incident;
+    const double all = got.incident.value;
     // Nearly all of it lands on the soil, and both vary with the number of rays that meet the plot.
-    EXPECT_NEAR(all / expected.incident, 1.0, 2.0 * got.absorbed_soil.half_width / got.absorbed_soil.value);
+    EXPECT_NEAR(all / expected.incident.value, 1.0, 2.0 * got.absorbed_soil.half_width / got.absorbed_soil.value);
     expect_same(got.absorbed_vegetation, expected.absorbed_vegetation, replicates, 0.05 * expected.absorbed_vegetation.value, 6,
                 "absorbed by leaves");
     expect_same(got.absorbed_soil, expected.absorbed_soil, replicates, 0.005 * all, 6, "absorbed by soil");
@@ -118,9 +118,9 @@ TEST(AimedLight, IncidentFluxVariesAsItsErrorSays) {
     const ScatterWork work{.rays = 2e4, .packets = 500, .replicates = 8, .seed = seed, .bound = 0.01};
     const RadiationResult result = simulate(model, prepared, fixed_scatter(model, work));
     const BandResult& band = result.bands[0];
-    EXPECT_GT(band.incident_half_width, 0.0);
-    values.add(band.incident);
-    variance += std::pow(band.incident_half_width / t_quantile(0.95, 8), 2.0) / runs;
+    EXPECT_GT(band.incident.half_width, 0.0);
+    values.add(band.incident.value);
+    variance += std::pow(band.incident.half_width / t_quantile(0.95, 8), 2.0) / runs;
   }
   const double seen = std::pow(values.standard_error(), 2.0) * runs;
   EXPECT_NEAR(seen / variance, 1.0, 4.0 * 0.19);

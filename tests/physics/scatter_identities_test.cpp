@@ -58,7 +58,7 @@ TEST(ScatterIdentities, LedgerClosesInIntegers) {
         EXPECT_EQ(band.ledger.residual(), 0) << band.name;
         EXPECT_TRUE(band.ledger.transmitted == 0 || !has_soil || !periodic) << band.name;
         EXPECT_TRUE(band.ledger.transmitted > 0 || has_soil) << band.name;
-        EXPECT_LE(band.unshot, 1e-5 * band.incident) << band.name;
+        EXPECT_LE(band.unshot, 1e-5 * band.incident.value) << band.name;
       }
       for (const std::size_t lossless : {2U, 5U}) EXPECT_EQ(result.bands[lossless].ledger.absorbed_vegetation, 0);
       EXPECT_EQ(result.bands[2].ledger.absorbed_soil, 0);

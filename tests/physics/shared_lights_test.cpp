@@ -47,7 +47,7 @@ class Comparison {
     for (std::size_t band = 0; band < a.bands.size(); ++band) {
       const BandResult &x = a.bands[band], &y = b.bands[band];
       EXPECT_EQ(x.ledger.residual(), 0) << x.name;
-      const double scale = x.incident;
+      const double scale = x.incident.value;
       add(x.absorbed_vegetation, y.absorbed_vegetation, x.unshot + y.unshot, scale);
       add(x.absorbed_soil, y.absorbed_soil, x.unshot + y.unshot, scale);
       add(x.reflected, y.reflected, x.unshot + y.unshot, scale);

@@ -43,7 +43,7 @@ TEST(SkyLight, ExplicitSceneUnderUniformAndOvercastSkies) {
     const double passed_error = 3.0 * std::hypot(row.passed.error, standard_error(result.layers[0].down[0], usual_replicates));
     EXPECT_NEAR(sky_on_soil_w_m2(model, result, 0), row.passed.value, passed_error);
     EXPECT_EQ(par.ledger.residual(), 0);
-    EXPECT_NEAR(par.incident, 1.0, 1e-12);
+    EXPECT_NEAR(par.incident.value, 1.0, 1e-12);
     EXPECT_EQ(result.direct.rays, 0U);
   }
 }
@@ -181,13 +181,13 @@ TEST(SkyLight, LedgerClosesInIntegers) {
         for (std::size_t b = 0; b < bands.size(); ++b) {
           const BandResult& band = result.bands[b];
           EXPECT_EQ(band.ledger.residual(), 0) << band.name;
-          EXPECT_GT(band.incident, 0.0);
-          EXPECT_LE(band.unshot, 1e-5 * band.incident) << band.name;
+          EXPECT_GT(band.incident.value, 0.0);
+          EXPECT_LE(band.unshot, 1e-5 * band.incident.value) << band.name;
           if (periodic) {
-            EXPECT_NEAR(band.incident, has_sun ? 1.5 : 1.0, 1e-9);
+            EXPECT_NEAR(band.incident.value, has_sun ? 1.5 : 1.0, 1e-9);
           }
           const LayerResult& top = result.layers.back();
-          EXPECT_NEAR(top.down[b].value, band.incident, 1e-9);
+          EXPECT_NEAR(top.down[b].value, band.incident.value, 1e-9);
           EXPECT_NEAR(top.up[b].value, band.reflected.value, 1e-9);
         }
         EXPECT_EQ(result.bands[2].ledger.absorbed_vegetation, 0);

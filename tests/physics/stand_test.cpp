@@ -33,7 +33,7 @@ void expect_shares(const StandCase& stand) {
     expect_agrees(got, reference.value, usual_replicates, stand.tolerance / 2.0, 6, names[organ]);
   }
   // The soil's triangles lie in y = 0 and take precedence over the soil plane.
-  EXPECT_EQ(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, result.bands[0].incident);
+  EXPECT_EQ(result.bands[0].absorbed_vegetation.value + result.bands[0].absorbed_soil.value, result.bands[0].incident.value);
   EXPECT_NEAR(result.bands[0].absorbed_soil.value, share_of_beam(model, result, 2).value, 1e-9);
 }
 

@@ -193,7 +193,7 @@ TEST_F(ExportReadBack, Netcdf) {
   EXPECT_EQ(found["flags"].size(), found["organ_names"].size());
   for (std::size_t b = 0; b < 2; ++b) {
     EXPECT_EQ(found["absorbed_vegetation"][b], simulated().result.bands[b].absorbed_vegetation.value);
-    EXPECT_EQ(found["incident"][b], simulated().result.bands[b].incident);
+    EXPECT_EQ(found["incident"][b], simulated().result.bands[b].incident.value);
   }
   EXPECT_EQ(found["planes"], simulated().result.layers.size());
 

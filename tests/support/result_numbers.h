@@ -28,8 +28,8 @@ inline std::vector<std::uint64_t> all_numbers(const RadiationResult& result) {
                                     ledger.absorbed_soil, ledger.reflected, ledger.transmitted, ledger.unshot}) {
       integer(term);
     }
-    number(band.incident);
-    number(band.incident_half_width);
+    number(band.incident.value);
+    number(band.incident.half_width);
     number(band.unshot);
     estimates(
         std::array{band.absorbed_vegetation, band.absorbed_structure, band.absorbed_soil, band.reflected, band.transmitted});

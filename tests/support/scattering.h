@@ -38,8 +38,8 @@ inline void expect_sound(const RadiationModel& model, const RadiationResult& res
       const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
       if (!optics.emission_w_m2.empty()) emitted_w += optics.emission_w_m2[b] * area_m2(model.canopy.corners[e]);
     }
-    EXPECT_NEAR(result.bands[b].incident * model.plot.area_m2(), emitted_w, 1e-9 * emitted_w) << result.bands[b].name;
-    EXPECT_EQ(result.bands[b].incident_half_width, 0.0) << result.bands[b].name;
+    EXPECT_NEAR(result.bands[b].incident.value * model.plot.area_m2(), emitted_w, 1e-9 * emitted_w) << result.bands[b].name;
+    EXPECT_EQ(result.bands[b].incident.half_width, 0.0) << result.bands[b].name;
   }
 }
 

@@ -49,8 +49,8 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
   text += fmt::format("  device: {}{}\n", record.device.name,
                       record.device.kind == "vulkan" && record.device.software ? " (software Vulkan)" : "");
   for (const BandResult& band : result.bands) {
-    const std::string incident = band.incident_half_width > 0.0 ? with_error({band.incident, band.incident_half_width})
-                                                                : fmt::format("{:.4g}", band.incident);
+    const std::string incident =
+        band.incident.half_width > 0.0 ? with_error(band.incident) : fmt::format("{:.4g}", band.incident.value);
     const std::string by_structures = has_structures(areas_m2) ? ", by structures " + with_error(band.absorbed_structure) : "";
     text += fmt::format(
         "  {}: incident {} W m-2, absorbed by vegetation {}{}, by soil {}, reflected {}, transmitted {}, "

@@ -174,7 +174,7 @@ RunValues indirect_values(const RadiationModel& model, const RadiationResult& re
   const double relative = result.indirect.relative_error.value_or(no_value);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     const DirectAbsorbed direct = direct_absorbed(model, result, surfaces, b);
-    const double least = least_judged_share * result.bands[b].incident;
+    const double least = least_judged_share * result.bands[b].incident.value;
     for (const double value :
          {result.bands[b].absorbed_vegetation.value - direct.vegetation, result.bands[b].absorbed_soil.value - direct.soil}) {
       add(values[canopy], {value, relative * std::max(value, least)});
@@ -209,7 +209,7 @@ RunNorms make_norms(const RadiationModel& model, const RunValues& values, const 
 
 std::vector<double> incident_w_m2(const RadiationResult& result) {
   std::vector<double> incident;
-  for (const BandResult& band : result.bands) incident.push_back(band.incident);
+  for (const BandResult& band : result.bands) incident.push_back(band.incident.value);
   return incident;
 }
 

@@ -219,7 +219,7 @@ void ledger_cases(CaseBench& bench) {
       for (const BandResult& band : result.bands) missing += std::abs(band.ledger.residual());
       bench.equal(name + "quanta missing", static_cast<double>(missing), 0.0, 0.0);
       bench.equal(name + "rays lost", static_cast<double>(result.lost_rays), 0.0, 0.0);
-      if (periodic) bench.equal(name + "incident", result.bands[1].incident, 1.4);
+      if (periodic) bench.equal(name + "incident", result.bands[1].incident.value, 1.4);
     }
   }
   black_tallies(bench);

@@ -93,13 +93,13 @@ void draw_balance(const BandResult& band, float width_px) {
   ImDrawList& canvas = *ImGui::GetWindowDrawList();
   float left = corner.x;
   for (const Part& part : parts) {
-    if (!(band.incident > 0.0) || !(part.value.value > 0.0)) continue;
-    const float right = left + width_px * static_cast<float>(part.value.value / band.incident);
+    if (!(band.incident.value > 0.0) || !(part.value.value > 0.0)) continue;
+    const float right = left + width_px * static_cast<float>(part.value.value / band.incident.value);
     canvas.AddRectFilled({left, corner.y}, {right, corner.y + line}, part.colour);
     left = right;
   }
   ImGui::Dummy({width_px, 1.3F * line});
-  ImGui::Text("%s", fmt::format("{} incident {:.4g} W m⁻²", band.name, band.incident).c_str());
+  ImGui::Text("%s", fmt::format("{} incident {:.4g} W m⁻²", band.name, band.incident.value).c_str());
   for (const Part& part : parts) {  // all of them, so that what follows stays in its place
     const ImVec2 at = ImGui::GetCursorScreenPos();
     canvas.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + 0.7F * line, at.y + 0.85F * line}, part.colour);

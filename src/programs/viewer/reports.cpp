@@ -28,7 +28,7 @@ json converged_fields(const LightNews& news, std::size_t band) {
           {"direct_relative_error", number_or_null(news.direct_error.value_or(std::nan("")))},
           {"indirect_relative_error", number_or_null(news.indirect_error.value_or(std::nan("")))},
           {"band", light.name},
-          {"incident", light.incident},
+          {"incident", light.incident.value},
           {"absorbed_vegetation", light.absorbed_vegetation.value},
           {"absorbed_structure", light.absorbed_structure.value},
           {"absorbed_soil", light.absorbed_soil.value},

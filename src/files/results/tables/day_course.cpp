@@ -186,13 +186,8 @@ std::string local_time_text(const UtcTime& time, int offset_minutes) {
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
   StepLight light;
   for (const BandResult& band : result.bands) {
-    light.bands.push_back({{band.incident, band.incident_half_width},
-                           band.absorbed_vegetation,
-                           band.absorbed_structure,
-                           band.absorbed_soil,
-                           band.reflected,
-                           band.transmitted,
-                           band.unshot});
+    light.bands.push_back({band.incident, band.absorbed_vegetation, band.absorbed_structure, band.absorbed_soil, band.reflected,
+                           band.transmitted, band.unshot});
   }
   for (const OrganResult& organ : result.organs) {
     light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());

@@ -236,9 +236,7 @@ Table balance_table(const RadiationResult& result) {
   const auto add = [&](const char* name, const char* meaning, const auto term) {
     table.add({name, "W m-2", meaning, in_netcdf | in_arrays}, [&](std::size_t b) { return bands[b].*term; });
   };
-  table.add({"incident", "W m-2", "incident flux per ground area", in_netcdf | in_arrays}, [&](std::size_t b) {
-    return Estimate{bands[b].incident, bands[b].incident_half_width};
-  });
+  add("incident", "incident flux per ground area", &BandResult::incident);
   add("absorbed_vegetation", "flux absorbed by vegetation per ground area", &BandResult::absorbed_vegetation);
   add("absorbed_structure", "flux absorbed by structures and lamps per ground area", &BandResult::absorbed_structure);
   add("absorbed_soil", "flux absorbed by soil per ground area", &BandResult::absorbed_soil);

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 // Returns the half-widths of the band's fluxes, each multiplied by `factor`.
 ordered_json half_widths_json(const BandResult& band, double factor) {
-  return {{"incident", number_or_null(band.incident_half_width * factor)},
+  return {{"incident", number_or_null(band.incident.half_width * factor)},
           {"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width * factor)},
           {"absorbed_structure", number_or_null(band.absorbed_structure.half_width * factor)},
           {"absorbed_soil", number_or_null(band.absorbed_soil.half_width * factor)},
@@ -27,7 +27,7 @@ ordered_json half_widths_json(const BandResult& band, double factor) {
 
 ordered_json band_json(const BandResult& band) {
   return {{"name", band.name},
-          {"incident", band.incident},
+          {"incident", band.incident.value},
           {"absorbed_vegetation", band.absorbed_vegetation.value},
           {"absorbed_structure", band.absorbed_structure.value},
           {"absorbed_soil", band.absorbed_soil.value},
@@ -48,7 +48,7 @@ ordered_json band_json(const BandResult& band) {
 
 // Returns the same fluxes in photons, umol m-2 s-1 of ground, for bands with umol_per_joule.
 ordered_json photons_json(const BandResult& band, double umol_per_joule) {
-  return {{"incident", band.incident * umol_per_joule},
+  return {{"incident", band.incident.value * umol_per_joule},
           {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},
           {"absorbed_structure", band.absorbed_structure.value * umol_per_joule},
           {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},

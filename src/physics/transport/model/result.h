@@ -42,15 +42,15 @@ struct FluxLedger {
 };
 
 // The flux balance of one band, W m-2 of ground. The half-widths of all but the incident flux include the unshot flux, which could
-// still end up in any of the five other terms.
+// still end up in any of the five other terms. That of the incident flux is 0 on an endless canopy; on an isolated stand rays count
+// what arrives.
 struct BandResult {
   std::string name;
   FluxLedger ledger;
-  double incident = 0.0;
+  Estimate incident{0.0, 0.0};
   double unshot = 0.0;
   Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
   Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
-  double incident_half_width = 0.0;       // rays count the flux on an isolated stand; that on an endless canopy is exact
 };
 
 // The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no

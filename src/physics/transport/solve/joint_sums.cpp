@@ -93,9 +93,8 @@ JointSums::Figures<double> JointSums::half_widths(std::span<const RadiationResul
   return weighted([&](std::size_t light, Adders& to) {
     const RadiationResult& result = lights[light];
     for (const BandResult& band : result.bands) {
-      to.bands.add(band.incident_half_width);
-      for (const auto* flux :
-           {&band.absorbed_vegetation, &band.absorbed_structure, &band.absorbed_soil, &band.reflected, &band.transmitted})
+      for (const auto* flux : {&band.incident, &band.absorbed_vegetation, &band.absorbed_structure, &band.absorbed_soil,
+                               &band.reflected, &band.transmitted})
         to.bands.add(flux->half_width);
     }
     for (const OrganResult& organ : result.organs) {

@@ -89,7 +89,7 @@ class ResultMaker {
     BandResult result;
     result.name = model_.bands[band].name;
     result.ledger = ledger;
-    result.incident = static_cast<double>(ledger.incident) * per_quantum;
+    result.incident.value = static_cast<double>(ledger.incident) * per_quantum;
     result.unshot = sums_.unshot_w_m2(band);
     const auto estimate = [&](std::int64_t quanta, const ReplicateMean& mean, double event_w_m2) {
       const Estimate of_mean = mean.estimate(quantile_, unseen(event_w_m2));
@@ -97,7 +97,7 @@ class ResultMaker {
     };
     const double any = events_.largest_w_m2(band);
     if (!model_.plot.periodic && (model_.has_beam() || model_.has_sky()))  // what lamps emit is exact
-      result.incident_half_width = sums_.bands[band].incident.estimate(quantile_, unseen(any)).half_width;
+      result.incident.half_width = sums_.bands[band].incident.estimate(quantile_, unseen(any)).half_width;
     const double packet = scatters(model_, band) ? events_.other_w_m2[band] : 0.0;
     const double beam = areas_.beam_meets_canopy() ? events_.beam_w_m2[band] : 0.0;
     const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2[band]) : !model_.plot.periodic ? packet : 0.0;

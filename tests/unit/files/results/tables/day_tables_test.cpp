@@ -71,12 +71,12 @@ TEST(DayTables, LocalTimeCarriesItsOffset) {
 
 TEST(DayTables, IncidentFluxOfAnIsolatedPlotHasAnError) {
   RadiationResult result;
-  result.bands = {{"A", {}, 100.0, 1.0, {60.0, 1.5}, {30.0, 2.0}, {0.0, 1.0}, {9.0, 3.0}}};
+  result.bands = {{"A", {}, {100.0, 0.0}, 1.0, {60.0, 1.5}, {30.0, 2.0}, {0.0, 1.0}, {9.0, 3.0}}};
   const StepLight endless = step_light(two_organs(), result);
   EXPECT_EQ(endless.bands[0].incident.value, 100.0);
   EXPECT_EQ(endless.bands[0].incident.half_width, 0.0);
   EXPECT_EQ(endless.bands[0].unshot, 1.0);
-  result.bands[0].incident_half_width = 2.5;
+  result.bands[0].incident.half_width = 2.5;
   const StepLight isolated = step_light(two_organs(false), result);
   EXPECT_EQ(isolated.bands[0].incident.half_width, 2.5);
   DayCourse course = three_steps();
@@ -263,7 +263,7 @@ TEST(OrganKinds, AreOrderedByRoleAndEndWithTheSoil) {
 // Organs of 1 m2 on 10 m2 of ground; 2 of 1000 quanta absorbed are unshot.
 RadiationResult result_of_four(double vegetation_half_width) {
   RadiationResult result;
-  BandResult band{"A", {}, 100.0, 0.1, {30.0, vegetation_half_width}, {40.0, 2.5}, {20.0, 1.0}};
+  BandResult band{"A", {}, {100.0, 0.0}, 0.1, {30.0, vegetation_half_width}, {40.0, 2.5}, {20.0, 1.0}};
   band.absorbed_structure = {10.0, 0.7};
   band.ledger.absorbed_vegetation = 1000;
   band.ledger.unshot = 2;
