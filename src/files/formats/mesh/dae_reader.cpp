@@ -172,22 +172,32 @@ class DaeReader {
       static_cast<void>(builder_.add_vertex(moved));
     }
     const bool is_mirrored = glm::determinant(glm::dmat3(visit.to_scene)) < 0.0;
+    const MaterialBindings bindings = material_bindings(instance);
     for (const DaePolygons& part : geometry.parts) {
       if (part.sizes.empty()) continue;
-      const std::uint32_t optics = material_of(instance, part.material);
+      const std::uint32_t optics = material_of(bindings, part.material);
       builder_.add_polygons(part.sizes, part.corners, {first, is_mirrored}, optics, builder_.object_organ(object, optics));
     }
   }
 
-  // Returns the optics of the material that the instance binds to the symbol, or else of the symbol itself.
-  std::uint32_t material_of(pugi::xml_node instance, std::string_view symbol) {
-    const pugi::xml_node bindings = instance.child("bind_material").child("technique_common");
-    std::string_view name = trimmed(symbol);
-    for (const pugi::xml_node binding : bindings.children("instance_material")) {
-      if (binding.attribute("symbol").value() != symbol) continue;
-      const std::string_view own = trimmed(name_of(dae_target(xml_, elements_, binding, "target", "material")));
-      if (!own.empty()) name = own;
+  // What an instance binds to the symbols of a geometry.
+  using MaterialBindings = std::unordered_map<std::string_view, pugi::xml_node>;
+
+  static MaterialBindings material_bindings(pugi::xml_node instance) {
+    MaterialBindings bindings;
+    for (const pugi::xml_node binding :
+         instance.child("bind_material").child("technique_common").children("instance_material")) {
+      bindings.insert_or_assign(binding.attribute("symbol").value(), binding);
     }
+    return bindings;
+  }
+
+  // Returns the optics of the material that is bound to the symbol, or else of the symbol itself.
+  std::uint32_t material_of(const MaterialBindings& bindings, std::string_view symbol) {
+    std::string_view name;
+    if (const auto bound = bindings.find(symbol); bound != bindings.end())
+      name = trimmed(name_of(dae_target(xml_, elements_, bound->second, "target", "material")));
+    if (name.empty()) name = trimmed(symbol);
     return name.empty() ? builder_.default_optics(0) : builder_.optics(name);
   }
 
