@@ -7,7 +7,6 @@
 namespace sunfleck {
 
 std::unique_ptr<Job> join_no_job(const Launch& launch) {
-  if (launch.alone()) return nullptr;
   // If the launcher does not give the number of processes, rank 0 cannot know that it is not alone.
   if (!launch.ranks && launch.rank == 0) return nullptr;
   throw_input(launch.ranks ? fmt::format("{} processes started by MPI", *launch.ranks) : "several processes started by MPI",

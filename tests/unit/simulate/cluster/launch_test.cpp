@@ -1,6 +1,7 @@
 #include "simulate/cluster/launch.h"
 
 #include "base/error.h"
+#include "simulate/cluster/job.h"
 #include "simulate/cluster/no_job.h"
 #include "support/error_text.h"
 
@@ -72,7 +73,7 @@ TEST_F(NoJobTest, IsJoinedByAProcessOnItsOwn) {
   ::setenv("OMPI_COMM_WORLD_RANK", "0", 1);
   ::setenv("OMPI_COMM_WORLD_SIZE", "1", 1);
   ASSERT_TRUE(launch_by_mpi());
-  EXPECT_EQ(join_no_job(*launch_by_mpi()), nullptr);
+  EXPECT_EQ(join_job(), nullptr);
 }
 
 TEST_F(NoJobTest, RefusesToBeOneOfSeveral) {
