@@ -111,16 +111,18 @@ std::optional<MemoryForecast> forecast_memory(Simulation& simulation, const Solv
   const double in_the_making = 1.0 + at_their_peak * (static_cast<double>(run->at_once) - 1.0);
   const auto tree_bytes = static_cast<double>(simulation.tree_bytes());
   const double on_device = on_cpu ? 0.0 : tree_bytes + 4.0 * tree.layout.words();
-  const double throughout = canopy_bytes(model) + tree_bytes + on_device;
+  const double on_host = canopy_bytes(model) + tree_bytes;
+  const double while_building = on_host + static_cast<double>(tree.bvh.triangles.size()) * building;
   const auto computing = [&](const SumBytes& sums) {
-    return std::max({static_cast<double>(tree.bvh.triangles.size()) * building,
-                     sums.tracing + in_the_making * run->replicate_bytes, sums.ending, sums.result + elements * stored});
+    return std::max({sums.tracing + in_the_making * run->replicate_bytes, sums.ending, sums.result + elements * stored});
   };
   const SumBytes drawn = sum_bytes(model, tree.layout, settings.element_errors, *run);
   const SumBytes plain = sum_bytes(model, tree.layout, without_pictures, *run);
   const double drawing = drawn.result + picture_bytes(model, tree.layout, engine.device());
   const auto whole = [&](double at_most) {
-    return static_cast<std::uint64_t>(program_bytes(engine.device()) + memory_per_byte * (throughout + at_most));
+    const double while_running = memory_per_byte * (on_host + at_most) + on_device;  // a driver takes what it is asked for
+    return static_cast<std::uint64_t>(program_bytes(engine.device()) +
+                                      std::max(memory_per_byte * while_building, while_running));
   };
   return MemoryForecast{whole(std::max(computing(drawn), drawing)), whole(computing(plain)), *run};
 }
