@@ -198,7 +198,7 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   for (const DayStep& step : plan.course.steps) {
     plan.lights.push_back(step.unlit()   ? MomentLight{}
                           : step.night() ? light_at_night(scene, step.middle)
-                                         : light_at(scene, step.middle));
+                                         : light_of_step(scene, step.middle, step.length_s));
   }
   return plan;
 }

@@ -51,9 +51,11 @@ MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& su
   return light_of_weather(scene, sun, weather_at(*scene.light.weather, time, *sun));
 }
 
-MomentLight light_at(const Scene& scene, const UtcTime& time) {
+MomentLight light_of_step(const Scene& scene, const UtcTime& middle, double length_s) {
   EXPECT(scene.moment.has_value(), ==, true);
-  return light_under(scene, sun_position(time, scene.moment->place), time);
+  const SunPosition sun = sun_position(middle, scene.moment->place);
+  const std::optional<Weather>& weather = scene.light.weather;
+  return light_of_weather(scene, sun, weather ? weather_of_step(*weather, middle, length_s, sun) : Broadband{});
 }
 
 MomentLight light_at_night(const Scene& scene, const UtcTime& time) {

@@ -15,14 +15,14 @@ struct MomentLight {
 };
 
 // Returns the light for any position of the sun, which a scene with weather must have (EXPECT). `time` selects the weather; it
-// is empty if the scene has no time. Otherwise as light_at.
+// is empty if the scene has no time. Otherwise as light_of_step.
 [[nodiscard]] MomentLight light_under(const Scene& scene, const std::optional<SunPosition>& sun,
                                       const std::optional<UtcTime>& time);
 
-// Returns the light at a time other than the scene's own; the scene must have a time and place (EXPECT). There is no beam while
-// the sun is at or below the horizon; the scene or its weather defines the sky light. Throws Error (input), naming the time, if
-// the weather has no data for it.
-[[nodiscard]] MomentLight light_at(const Scene& scene, const UtcTime& time);
+// Returns the light of a step of this length; the scene must have a time and place (EXPECT). The sun is where it is at the middle,
+// and the weather that of the step (weather_of_step). There is no beam while the sun is at or below the horizon; the scene
+// or its weather defines the sky light. Throws Error (input), naming the time, if the weather has no data for the middle.
+[[nodiscard]] MomentLight light_of_step(const Scene& scene, const UtcTime& middle, double length_s);
 
 // Returns the light at a time as if none came from sun and sky; the scene must have a time and place (EXPECT).
 [[nodiscard]] MomentLight light_at_night(const Scene& scene, const UtcTime& time);

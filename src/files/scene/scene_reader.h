@@ -67,7 +67,7 @@ struct Scene {
   std::vector<std::string> warnings;  // one line each, to be shown once
 };
 
-// The purpose of reading a scene. A day takes the light of its steps from light_at, so the bands of the model have no
+// The purpose of reading a scene. A day takes the light of its steps from light_of_step, so the bands of the model have no
 // irradiance yet; the scene's own time need not lie in its weather file, and the sun may be down then.
 enum class ScenePurpose { moment, day };
 

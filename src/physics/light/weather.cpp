@@ -59,6 +59,25 @@ UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   throw_input("weather at " + text_of(time), why, "choose a time that it covers, or add what is missing");
 }
 
+// Returns the time in the file that stands for a time.
+UtcTime time_in_file(const Weather& weather, const UtcTime& time) {
+  return weather.every_year ? in_typical_year(weather, time) : time;
+}
+
+// Returns the first interval that begins after a time.
+std::vector<WeatherInterval>::const_iterator first_after(const Weather& weather, const UtcTime& time) {
+  return std::upper_bound(weather.intervals.begin(), weather.intervals.end(), time,
+                          [](const UtcTime& t, const WeatherInterval& each) { return t < each.start; });
+}
+
+// Returns nothing if nothing was measured in the interval.
+std::optional<Broadband> measured_in(const WeatherInterval& interval, SplitRule rule, const SunPosition& sun,
+                                     std::optional<int> day) {
+  if (interval.has_parts()) return Broadband{interval.dni_w_m2, interval.dhi_w_m2};
+  if (interval.ghi_w_m2 >= 0.0) return split_global(interval.ghi_w_m2, rule, sun, day);
+  return std::nullopt;
+}
+
 }  // namespace
 
 double Broadband::direct_horizontal_w_m2(const SunPosition& sun) const {
@@ -149,9 +168,8 @@ Broadband clear_sky(const ClearAir& air, const SunPosition& sun, std::optional<i
 
 const WeatherInterval& interval_at(const Weather& weather, const UtcTime& time) {
   if (weather.intervals.empty()) refuse_time(weather, time);
-  const UtcTime asked = weather.every_year ? in_typical_year(weather, time) : time;
-  const auto next = std::upper_bound(weather.intervals.begin(), weather.intervals.end(), asked,
-                                     [](const UtcTime& t, const WeatherInterval& each) { return t < each.start; });
+  const UtcTime asked = time_in_file(weather, time);
+  const auto next = first_after(weather, asked);
   if (next == weather.intervals.begin()) refuse_time(weather, time);
   const WeatherInterval& interval = *std::prev(next);
   if (seconds_between(interval.start, asked) >= interval.length_s) refuse_time(weather, time);
@@ -163,11 +181,33 @@ Broadband weather_at(const Weather& weather, const std::optional<UtcTime>& time,
   if (weather.source == Weather::Source::clear_sky) return clear_sky(weather.air, sun, day);
   if (weather.source == Weather::Source::intervals) EXPECT(time.has_value(), ==, true);
   const WeatherInterval& given = weather.source == Weather::Source::moment ? weather.moment : interval_at(weather, *time);
-  if (given.has_parts()) return {given.dni_w_m2, given.dhi_w_m2};
-  if (given.ghi_w_m2 >= 0.0) return split_global(given.ghi_w_m2, weather.split, sun, day);
+  if (const auto measured = measured_in(given, weather.split, sun, day)) return *measured;
   EXPECT(weather.source == Weather::Source::intervals, ==, true);
   throw_input(fmt::format("{}:{}: weather at {}", weather.name, given.line, text_of(*time)),
               "irradiance is marked as missing there", "choose another time, or fill the value in");
+}
+
+Broadband weather_of_step(const Weather& weather, const UtcTime& middle, double length_s, const SunPosition& sun) {
+  constexpr double rounding_s = 1e-3;  // of differences between times
+  const Broadband at_middle = weather_at(weather, middle, sun);
+  if (weather.source != Weather::Source::intervals) return at_middle;
+  if (length_s <= interval_at(weather, middle).length_s + rounding_s) return at_middle;
+  const UtcTime begin = plus_seconds(time_in_file(weather, middle), -0.5 * length_s);
+  auto interval = first_after(weather, begin);
+  if (interval != weather.intervals.begin()) --interval;
+  Broadband sum;
+  double measured_s = 0.0;
+  for (; interval != weather.intervals.end(); ++interval) {
+    const double start_s = seconds_between(begin, interval->start);
+    if (start_s >= length_s) break;
+    const double within_s = std::min(length_s, start_s + interval->length_s) - std::max(0.0, start_s);
+    const std::optional<Broadband> light = measured_in(*interval, weather.split, sun, day_of_year(middle));
+    if (within_s <= rounding_s || !light) continue;
+    sum.direct_normal_w_m2 += within_s * light->direct_normal_w_m2;
+    sum.diffuse_w_m2 += within_s * light->diffuse_w_m2;
+    measured_s += within_s;
+  }
+  return {sum.direct_normal_w_m2 / measured_s, sum.diffuse_w_m2 / measured_s};
 }
 
 }  // namespace sunfleck

@@ -28,7 +28,7 @@ constexpr const char* settings_file = "settings.json";
 constexpr const char* state_file = "block_state.bin";
 constexpr const char* finished_key = "finished";
 constexpr const char* format_key = "format";
-constexpr int step_format = 11;  // of the steps, and of the tables that a finished day has
+constexpr int step_format = 12;  // of the steps, and of the tables that a finished day has
 
 struct StepSizes {
   std::size_t fields = 0, maps = 0;  // numbers of values

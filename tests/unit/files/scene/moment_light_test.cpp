@@ -21,7 +21,7 @@ TEST_F(MomentLightTest, IsTheScenesOwnAtItsMoment) {
         plot_table + moment_table + par_table + "direct = 350\n",
         plot_table + moment_table + par_table + "direct_normal = 350\ndiffuse = 3\n[sky]\nmodel = \"uniform\"\n"}) {
     const Scene scene = read(text);
-    const MomentLight light = light_at(scene, scene.moment->time);
+    const MomentLight light = light_of_step(scene, scene.moment->time, 600.0);
     EXPECT_EQ(light.sun.elevation_rad, scene.model.sun->elevation_rad);
     ASSERT_EQ(light.bands.size(), scene.model.bands.size());
     for (std::size_t b = 0; b < light.bands.size(); ++b) {
@@ -44,7 +44,7 @@ TEST_F(MomentLightTest, FollowsSunAndWeather) {
   double last_w_m2 = 0.0;
   for (const int hour : {22, 23}) {  // 6 and 7 o'clock local time
     const UtcTime time{2002, 8, 7, hour};
-    const MomentLight light = light_at(scene, time);
+    const MomentLight light = light_of_step(scene, time, 600.0);
     EXPECT_EQ(light.sun.elevation_rad, sun_position(time, scene.moment->place).elevation_rad);
     const Broadband broadband = clear_sky({}, light.sun, 219);
     EXPECT_NEAR(light.bands[0].direct_w_m2, 0.5 * broadband.direct_horizontal_w_m2(light.sun), 1e-10);
@@ -61,7 +61,7 @@ TEST_F(MomentLightTest, NightHasNoBeam) {
   const Scene scene =
       read(plot_table + moment_table + perez_table + clear_table + par_table +
            "[[band]]\nname = \"B\"\ndirect_normal = 100\ndiffuse = 5\n" + "[[band]]\nname = \"C\"\ndirect = 100\n");
-  const MomentLight night = light_at(scene, {2002, 8, 7, 17});
+  const MomentLight night = light_of_step(scene, {2002, 8, 7, 17}, 600.0);
   EXPECT_LT(night.sun.elevation_rad, 0.0);
   for (const Waveband& band : night.bands) EXPECT_EQ(band.direct_w_m2, 0.0);
   EXPECT_EQ(night.bands[0].diffuse_w_m2, 0.0);
@@ -74,8 +74,20 @@ TEST_F(MomentLightTest, MeasuredTwilightIsDiffuse) {
   const Scene scene = read(plot_table + moment_table + perez_table + "[weather]\nfile = \"station.csv\"\n" + par_table,
                            {.purpose = ScenePurpose::day});
   EXPECT_EQ(scene.model.bands[0].diffuse_w_m2, 0.0);
-  EXPECT_EQ(light_at(scene, {2002, 8, 7, 17, 30}).bands[0].diffuse_w_m2, 2.0);
-  EXPECT_TRUE(message_of([&] { static_cast<void>(light_at(scene, {2002, 8, 7, 19, 0})); }));
+  EXPECT_EQ(light_of_step(scene, {2002, 8, 7, 17, 30}, 3600.0).bands[0].diffuse_w_m2, 2.0);
+  EXPECT_TRUE(message_of([&] { static_cast<void>(light_of_step(scene, {2002, 8, 7, 19, 0}, 3600.0)); }));
+}
+
+TEST_F(MomentLightTest, ALongStepHasTheMeanOfItsRecords) {
+  std::string station = "time,ghi\n";
+  for (int i = 0; i < 6; ++i) station += "2002-08-07T17:" + std::to_string(i) + "0Z," + std::to_string(i + 1) + "\n";
+  write(folder_ / "station.csv", station);
+  const Scene scene = read(plot_table + moment_table + perez_table + "[weather]\nfile = \"station.csv\"\n" + par_table,
+                           {.purpose = ScenePurpose::day});
+  EXPECT_EQ(light_of_step(scene, {2002, 8, 7, 17, 25}, 600.0).bands[0].diffuse_w_m2, 1.5);
+  const MomentLight hour = light_of_step(scene, {2002, 8, 7, 17, 30}, 3600.0);
+  EXPECT_NEAR(hour.bands[0].diffuse_w_m2, 1.75, 1e-9);
+  EXPECT_NEAR(hour.sky->dhi_w_m2, 3.5, 1e-9);
 }
 
 class DayRules : public SceneFolder {

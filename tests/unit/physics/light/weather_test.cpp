@@ -162,6 +162,43 @@ TEST(Weather, IntervalsHoldTheirStartButNotTheirEnd) {
   EXPECT_NEAR(got.global_w_m2(paper_sun), 400.0, 1e-10);
 }
 
+TEST(Weather, AStepLongerThanIntervalsHasTheirMean) {
+  Weather weather = hourly(5);
+  for (WeatherInterval& interval : weather.intervals) {
+    interval.dni_w_m2 = 2.0 * interval.ghi_w_m2;
+    interval.dhi_w_m2 = 0.3 * interval.ghi_w_m2;
+  }
+  const auto expect_mean = [&](const UtcTime& middle, double length_s, double hours) {
+    const Broadband got = weather_of_step(weather, middle, length_s, paper_sun);
+    EXPECT_NEAR(got.direct_normal_w_m2, 200.0 * hours, 1e-10) << length_s;
+    EXPECT_NEAR(got.diffuse_w_m2, 30.0 * hours, 1e-10) << length_s;
+  };
+  expect_mean({2002, 8, 8, 0, 30}, 3.0 * 3600.0, 2.0);
+  expect_mean({2002, 8, 8, 1, 0}, 1.5 * 3600.0, (0.75 * 2.0 + 0.75 * 3.0) / 1.5);
+  expect_mean({2002, 8, 7, 22, 30}, 7200.0, (1.0 * 0.0 + 0.5 * 1.0) / 1.5);  // begins before the file
+  weather.intervals[1].dhi_w_m2 = weather.intervals[1].ghi_w_m2 = -1.0;
+  expect_mean({2002, 8, 8, 0, 30}, 3.0 * 3600.0, 2.5);  // what is marked as missing is left out
+  weather.intervals.erase(weather.intervals.begin() + 1);
+  expect_mean({2002, 8, 8, 0, 30}, 3.0 * 3600.0, 2.5);
+  EXPECT_NE(refusal_of([&] {
+              static_cast<void>(weather_of_step(weather, {2002, 8, 7, 23, 30}, 7200.0, paper_sun));
+            }).find("gap"),
+            std::string::npos);
+}
+
+TEST(Weather, AnotherStepHasThatOfItsMiddle) {
+  const Weather weather = hourly(5);
+  const UtcTime middle{2002, 8, 8, 2, 35};
+  const Broadband expected = weather_at(weather, middle, paper_sun);
+  for (const double length_s : {600.0, 3600.0}) {
+    const Broadband got = weather_of_step(weather, middle, length_s, paper_sun);  // half of the longer one lies beyond
+    EXPECT_EQ(got.direct_normal_w_m2, expected.direct_normal_w_m2);
+    EXPECT_EQ(got.diffuse_w_m2, expected.diffuse_w_m2);
+  }
+  const Weather clear{.source = Weather::Source::clear_sky};
+  EXPECT_EQ(weather_of_step(clear, middle, 7200.0, paper_sun).diffuse_w_m2, weather_at(clear, middle, paper_sun).diffuse_w_m2);
+}
+
 std::string refusal(const Weather& weather, const UtcTime& time) {
   return refusal_of([&] { static_cast<void>(weather_at(weather, time, paper_sun)); });
 }
