@@ -89,6 +89,19 @@ def test_organs_plants_and_placement_of_arrays():
     assert list(result["plant"]) == [2, 2, 5, 7, 7, 10]
 
 
+def test_roles_and_organs_of_arrays():
+    frames = sunfleck.run(with_arrays(role="structure"), **WORK)
+    assert set(frames.organs["role"]) == {"structure"}
+    assert frames.bands["PAR"]["absorbed_vegetation"] == 0 < frames.bands["PAR"]["absorbed_structure"]
+    parts = sunfleck.run(with_arrays(split="parts"), **WORK)
+    assert len(parts.organs["organ"]) == len(LEAVES)
+    copies = {"at": [[0, 0, 0], [0.1, 0, 0.1]], "optics": "leaf"}
+    own = sunfleck.run(with_arrays(**copies, instances=False), **WORK)
+    shared = sunfleck.run(with_arrays(**copies, instances=True), **WORK)
+    half_widths = np.hypot(own["PAR_absorbed_error"], shared["PAR_absorbed_error"])
+    assert np.all(np.abs(own["PAR_absorbed"] - shared["PAR_absorbed"]) <= 2.0 * half_widths)
+
+
 def test_optics_by_patterns_of_names():
     organs = ["leaf1", "leaf2", "stalk"]
     named = sunfleck.run(with_arrays(organ=organs), **WORK)

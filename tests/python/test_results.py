@@ -35,9 +35,11 @@ def test_views_outlive_their_result():
 
 def test_xarray(result):
     data = result.to_xarray()
-    assert data.sizes == {"triangle": 3, "plane_height": 5, "band": 2, "sensor_point": 3, "sensor": 1}
+    assert data.sizes == {"triangle": 3, "vertex": 3, "plane_height": 5, "band": 2, "sensor_point": 3, "sensor": 1}
     assert np.array_equal(data["NIR_absorbed"], result["NIR_absorbed"])
     assert data["NIR_absorbed"].attrs["units"] == "W m-2"
+    corners = [data[f"corner_{axis}"].transpose("triangle", "vertex") for axis in "xyz"]
+    assert np.array_equal(np.stack(corners, axis=2), result.corners)
     assert float(data["absorbed_soil"].sel(band="PAR")) == result.bands["PAR"]["absorbed_soil"]
     assert np.array_equal(data["PAR_down"], result.profile["PAR_down"])
     assert "absorbed" not in data and "sunlit_leaf_fraction" not in data

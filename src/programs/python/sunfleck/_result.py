@@ -165,8 +165,9 @@ class Result:
         self._outcome.write(os.fspath(folder), exports, [images] if isinstance(images, str) else list(images))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, the profile by `plane_height`, the
-        balance by `band`, means of sensors by `sensor`, their points by `sensor_point`. Maps are in the list `planes` instead.
+        """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, corners also by `vertex`, the profile by
+        `plane_height`, the balance by `band`, means of sensors by `sensor`, their points by `sensor_point`. Maps are in the list
+        `planes` instead.
         Needs xarray."""
         xarray = optional("xarray", "to_xarray")
 
@@ -177,6 +178,8 @@ class Result:
         data = xarray.Dataset(attrs={"title": self.summary["scene"], "seed": self.summary["seed"], "axes": self.summary["axes"]})
         data = data.assign(variables("triangles.csv", "triangle", self.triangles))
         data["organ_index"] = ("triangle", self.triangles["organ_index"], {"units": "1"})
+        for number, axis in enumerate("xyz"):
+            data[f"corner_{axis}"] = (("triangle", "vertex"), self.corners[:, :, number], {"units": "m"})
         data = data.set_coords(["plant", "rank", "organ", "organ_index", "optics", "x", "y", "z"])
         profile = variables("profile.csv", "plane_height", self.profile)
         height = profile.pop("height_m")

@@ -18,7 +18,7 @@ from ._errors import refuse
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 _MESH_KEYS = ("vertices", "triangles", "optics", "organ", "plant", "rank")
-_PLACE_KEYS = ("up", "scale", "heading", "at", "positions")
+_PART_KEYS = ("up", "scale", "heading", "at", "positions", "role", "split", "instances")
 _UNNAMED = "unnamed"  # the material of triangles without one, for patterns of optics
 _DICT_NAME = "scene"  # name in messages of a scene that is not a file
 
@@ -79,12 +79,12 @@ class SceneSource:
             refuse(f"{place}: {type(part).__name__}", "must be a dict", "give file, generator or vertices and triangles")
         if "vertices" not in part:
             return _plain(part, place)
-        unknown = sorted(set(part) - set(_MESH_KEYS) - set(_PLACE_KEYS))
+        unknown = sorted(set(part) - set(_MESH_KEYS) - set(_PART_KEYS))
         if unknown:
-            refuse(f"{place}.{unknown[0]}", "unknown key next to vertices", f"use {', '.join(_MESH_KEYS + _PLACE_KEYS)}")
+            refuse(f"{place}.{unknown[0]}", "unknown key next to vertices", f"use {', '.join(_MESH_KEYS + _PART_KEYS)}")
         name = f"mesh{number}"
         self.meshes[name] = _mesh(part, place)
-        keys = _PLACE_KEYS + (("optics",) if isinstance(part.get("optics"), Mapping) else ())
+        keys = _PART_KEYS + (("optics",) if isinstance(part.get("optics"), Mapping) else ())
         return {"mesh": name, **_plain({key: part[key] for key in keys if key in part}, place)}
 
 
