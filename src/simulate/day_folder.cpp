@@ -203,6 +203,7 @@ class DayFolder {
 }  // namespace
 
 StepFields wanted_fields(const ResultRequest& request, const DayCourse& course) {
+  if (holds(request.exports, "none")) return StepFields::none;
   return course.dates.size() == 1 || holds(request.exports, "nc") ? StepFields::kept : StepFields::none;
 }
 

@@ -28,8 +28,8 @@ struct WrittenDay {
   UnwrittenFiles unwritten;    // the files that could not be written; the others are complete
 };
 
-// Returns whether the steps of a day must have the light of every triangle: for day.nc, which a single date has and several dates
-// have only if it is asked for.
+// Returns whether the steps of a day must have the light of every triangle: for day.nc, which a single date has unless the exports
+// say none, and several dates have only if it is asked for.
 [[nodiscard]] StepFields wanted_fields(const ResultRequest& request, const DayCourse& course);
 
 // Writes everything but the summary into the folder. Throws Error (failure) if a stored step is missing or damaged.

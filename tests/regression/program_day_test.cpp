@@ -324,6 +324,19 @@ TEST_F(Day, FieldsAreReadByXarray) {
   }
 }
 
+TEST_F(Day, LeavesOutTheLightOfTrianglesIfTold) {
+  const Arguments morning{"--from", "10:00", "--to", "12:00"};
+  const Arguments without = morning + Arguments{"--export", "none"};
+  expect_day(morning);
+  expect_day(without, 0, "without");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/day.nc"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "without/day.nc"));
+  for (const char* name : {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv"})
+    EXPECT_EQ(file(name, "without"), file(name)) << name;
+  expect_day(without + Arguments{"--resume"}, 0, "without");
+  expect_one_error(day(morning + Arguments{"--resume"}, "without"), 2, "triangles was false, now true");
+}
+
 TEST_F(Day, GoesOnWhereItWasKilled) {
   expect_day(one_by_one_, 0, "whole");
   // The kills come when a step is renamed, before a step is written, and while the next one is simulated.
@@ -563,7 +576,8 @@ TEST_F(Day, RefusesWhatCannotBe) {
                                                                 {"--to-date 2002-08-07", {"--to-date", "2002-08-07"}},
                                                                 {"--band UV", {"--band", "UV"}},
                                                                 {"--images", {"--images", "rank_total"}},
-                                                                {"--export", {"--export", "vtp"}}}) {
+                                                                {"--export", {"--export", "vtp"}},
+                                                                {"--export nc,none", {"--export", "none,nc"}}}) {
     const Outcome outcome = run(Arguments{"day", scene_, "-o", "out", "--device", "cpu"} + more);
     expect_one_error(outcome, 2, names);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << names;

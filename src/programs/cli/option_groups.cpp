@@ -178,13 +178,16 @@ void add_day(CLI::App& app, DayOptions& options, OptionWords& words) {
              "--max-rays)",
              usual_steps_together))
       ->transform(whole_number(1, most_steps_together));
-  day.add_option("--step", options.step_min, "Step length in minutes; each step has the light of its midpoint (default: 60)")
+  day.add_option("--step", options.step_min, "Step length in minutes; each step has the sun of its midpoint (default: 60)")
       ->transform(whole_number(1, 1440));
   day.add_option("--date", options.date, "YYYY-MM-DD (default: the date in the scene's [sun])")->check(not_empty());
   day.add_option("--to-date", options.to_date, "Last of several dates, all with the same hours")->check(not_empty());
   day.add_flag("--resume", options.run.resume, "Resume a stopped or killed day from its last saved replicate, or start it");
-  listed(day.add_option("--export", options.run.exports, "nc: write plane_H_day.nc, and day.nc for several dates too"))
-      ->check(one_of({"nc"}));
+  listed(
+      day.add_option("--export", options.run.exports,
+                     "nc: write plane_H_day.nc, and day.nc for several dates too; none: write no day.nc, which saves the time "
+                     "of estimating the light of triangles"))
+      ->check(one_of({"nc", "none"}));
   listed(day.add_option("--images", options.run.images,
                         "day (the course), season (by kind of organ, of several dates), planes, none or all (default)"))
       ->check(one_of({"day", "season", "planes", "all", "none"}));

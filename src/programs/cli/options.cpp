@@ -119,6 +119,8 @@ RunOptions finished(RunOptions options, const OptionWords& words, const CLI::App
 DayOptions finished(DayOptions options, const OptionWords& words, const CLI::App& command) {
   read_errors(words, options.run);
   check_images(options.run);
+  if (holds(options.run.exports, "none") && holds(options.run.exports, "nc"))
+    throw_input("--export nc,none", "none cannot be combined with nc", "remove one of them");
   if (holds(options.run.images, "none"))
     warn_without_effect(command, {"--band"}, "--images none draws no picture", options.run);
   if (options.to_date.empty() && options.run.images == std::vector<std::string>{"season"}) {
