@@ -3,6 +3,8 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
+#include "files/formats/mesh/mesh_reader.h"
 #include "files/scene/light_plausibility.h"
 #include "files/scene/moment_light.h"
 #include "files/scene/plausibility.h"
@@ -24,6 +26,7 @@
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 #include <set>
 #include <span>
 #include <string_view>
@@ -246,13 +249,20 @@ void check_same_roles(const TomlTable& root, const RadiationModel& model, std::s
   }
 }
 
+// Refuses what its name tells to be a mesh, also in formats for which there is no reader.
+void refuse_mesh(const std::filesystem::path& file) {
+  constexpr std::string_view foreign[] = {".3ds", ".3mf", ".abc",  ".blend", ".c4d", ".dxf",  ".fbx",  ".iges", ".igs", ".max",
+                                          ".off", ".skp", ".step", ".stp",   ".usd", ".usda", ".usdc", ".usdz", ".wrl", ".x3d"};
+  const std::string place = printable(file.string()) + ": not a scene";
+  if (is_mesh_file(file)) throw_input(place, "this is a mesh", "write a scene for it: sunfleck new FILE -o stand.toml");
+  if (std::find(std::begin(foreign), std::end(foreign), lower_case(file.extension().string())) != std::end(foreign))
+    throw_input(place, "there is no reader for this format", fmt::format("export a mesh as {}", readable_meshes));
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const SceneAccess& access) {
-  if (is_mesh_file(file)) {
-    throw_input(fmt::format("{}: not a scene", printable(file.string())), "this is a mesh",
-                "write a scene for it: sunfleck new FILE -o stand.toml");
-  }
+  refuse_mesh(file);
   SourceFiles own;
   const SceneAccess noting = noting_access(access, own);
   return read_scene(SceneText{file, noting.files->read(file, most_bytes), {}}, noting);

@@ -291,6 +291,18 @@ TEST_F(BrokenSceneFile, RefusesAMesh) {
   EXPECT_NE(message->find("stand.glb: not a scene (this is a mesh); write a scene for it"), std::string::npos) << *message;
 }
 
+TEST_F(BrokenSceneFile, RefusesAMeshThatNoReaderIsFor) {
+  for (const char* name : {"stand.fbx", "STAND.USDZ"}) {
+    write(folder_ / name, "FBXHeaderExtension:  {\n");
+    const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / name)); });
+    ASSERT_TRUE(message);
+    expect_three_parts(*message);
+    EXPECT_NE(message->find(fmt::format("{}: not a scene (there is no reader for this format); export a mesh as .glb", name)),
+              std::string::npos)
+        << *message;
+  }
+}
+
 TEST_F(BrokenSceneFile, RefusesAMeshOfAnotherName) {
   const std::pair<const char*, const char*> meshes[] = {{"ply\nformat ascii 1.0\n", ".ply"},
                                                         {"# Blender\nmtllib a.mtl\n", ".obj"},
