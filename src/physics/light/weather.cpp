@@ -195,13 +195,14 @@ Broadband weather_of_step(const Weather& weather, const UtcTime& middle, double 
   const UtcTime begin = plus_seconds(time_in_file(weather, middle), -0.5 * length_s);
   auto interval = first_after(weather, begin);
   if (interval != weather.intervals.begin()) --interval;
+  const int day = day_of_year(middle);
   Broadband sum;
   double measured_s = 0.0;
   for (; interval != weather.intervals.end(); ++interval) {
     const double start_s = seconds_between(begin, interval->start);
     if (start_s >= length_s) break;
     const double within_s = std::min(length_s, start_s + interval->length_s) - std::max(0.0, start_s);
-    const std::optional<Broadband> light = measured_in(*interval, weather.split, sun, day_of_year(middle));
+    const std::optional<Broadband> light = measured_in(*interval, weather.split, sun, day);
     if (within_s <= rounding_s || !light) continue;
     sum.direct_normal_w_m2 += within_s * light->direct_normal_w_m2;
     sum.diffuse_w_m2 += within_s * light->diffuse_w_m2;
