@@ -24,11 +24,14 @@ using Starts = std::vector<Start>;
 // Largest distance between a ray and the first of its bundle, in cells of the beam's grid. A square of 4 x 4 cells needs six.
 // Bundles of neighbours with gaps between them are wider; limits of 8 to 20 cells take equally long.
 constexpr float widest_cells = 12.0F;
+// Longest side of a cell with which bundles pay, in sizes of a typical triangle: with twice that, as in pilots on maize, they take
+// up to twice the time of rays side by side; with half of it, half of that time.
+constexpr float most_cell_in_sizes = 1.25F;
 
-float widest_squared(const shared::BeamBlock& beam) {
-  const float cell = std::max(distance_squared(beam.edge_u * beam.per_column, beam.direction),
-                              distance_squared(beam.edge_v * beam.per_row, beam.direction));
-  return widest_cells * widest_cells * cell;
+// Returns the square of the longer side of a cell of the grid, across the rays.
+float cell_squared(const shared::BeamBlock& beam) {
+  return std::max(distance_squared(beam.edge_u * beam.per_column, beam.direction),
+                  distance_squared(beam.edge_v * beam.per_row, beam.direction));
 }
 
 // Where rays leave a period, or end on the ground.
@@ -41,7 +44,7 @@ struct Ways {
 class Batch {
  public:
   Batch(const Bvh& bvh, const shared::BeamBlock& beam, const LandingCounter& landings)
-      : bvh_(bvh), beam_(beam), landings_(landings), widest_squared_(widest_squared(beam)) {
+      : bvh_(bvh), beam_(beam), landings_(landings), widest_squared_(widest_cells * widest_cells * cell_squared(beam)) {
     bundle_.along = shared::make_ray({}, beam.direction);
   }
 
@@ -144,6 +147,10 @@ class Batch {
 };
 
 }  // namespace
+
+bool pays_in_bundles(const shared::BeamBlock& beam, float size_squared) {
+  return cell_squared(beam) <= most_cell_in_sizes * most_cell_in_sizes * size_squared;
+}
 
 void count_in_bundles(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end,
                       const LandingCounter& landings) {

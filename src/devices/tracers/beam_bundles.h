@@ -15,6 +15,10 @@ namespace sunfleck {
 // A batch of about this many rays has enough neighbours left after a few periods.
 inline constexpr std::uint32_t rays_per_batch = 1024;
 
+// Returns whether rays of the beam lie close enough to each other, beside triangles of that typical size (triangle_size_squared),
+// for bundles to take less time than rays side by side (side_by_side.h).
+[[nodiscard]] bool pays_in_bundles(const shared::BeamBlock& beam, float size_squared);
+
 // Follows rays first..end-1 of the beam and counts their landings, those that CpuTracer::finish_ray counts one by one.
 void count_in_bundles(const Bvh& bvh, TraceDomain domain, const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end,
                       const LandingCounter& landings);

@@ -2,6 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "devices/tracers/beam_bundles.h"
+#include "devices/tracers/beam_way.h"
 #include "devices/tracers/packet_bundles.h"
 #include "devices/tracers/packet_way.h"
 #include "devices/tracers/side_by_side.h"
@@ -20,6 +21,32 @@ namespace {
 // Largest number of rays between two checks whether to stop: a fraction of a second.
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
 constexpr std::uint32_t packets_per_slice = 1U << 17U;
+
+// Follows beam rays side by side.
+class BeamSearches final : public SearchSource {
+ public:
+  BeamSearches(const shared::BeamBlock& beam, TraceDomain domain, std::uint32_t first, std::uint32_t end,
+               const LandingCounter& landings)
+      : beam_(beam), domain_(domain), next_(first), end_(end), landings_(landings) {}
+
+  bool begin(std::size_t slot, Search& search) override {
+    if (next_ == end_) return false;
+    ways_[slot] = BeamWay(beam_, domain_, landings_, next_, shared::beam_origin(beam_, next_), 0, search);
+    ++next_;
+    return true;
+  }
+
+  bool next(std::size_t slot, const CpuHit& hit, Search& search) override {
+    return ways_[slot].goes_on(hit, search) || begin(slot, search);
+  }
+
+ private:
+  const shared::BeamBlock& beam_;
+  TraceDomain domain_;
+  std::uint32_t next_, end_;
+  const LandingCounter& landings_;
+  std::array<BeamWay, searches_at_once> ways_;
+};
 
 // Follows packets side by side.
 class PacketSearches final : public SearchSource {
@@ -69,33 +96,6 @@ CpuHit CpuTracer::nearest(const shared::Ray& ray, float limit, OwnElement own) c
   return walk_ == CpuWalk::tree ? nearest_hit(bvh_, ray, limit, Images::all, own) : nearest_hit_of_all(bvh_, ray, limit, own);
 }
 
-void CpuTracer::follow_in_isolated_stand(const shared::BeamBlock& beam, std::uint32_t number, const shared::Ray& ray,
-                                         const LandingCounter& landings) const {
-  const shared::Ground ground = shared::meet_ground(ray, beam.ground);
-  const bool over_plot = shared::falls_on_plot(ray, beam.ground);
-  const CpuHit hit = nearest(ray, over_plot ? ground.limit : 1e30F);
-  if (hit.found) {
-    landings.count_element(number, hit);
-  } else if (over_plot) {
-    landings.count_ground(number, ray, ground.t);
-  } else {
-    landings.count_missed(number);
-  }
-}
-
-void CpuTracer::follow_in_endless_canopy(const shared::BeamBlock& beam, std::uint32_t number, shared::Ray ray,
-                                         std::uint32_t crossings, const LandingCounter& landings) const {
-  while (true) {
-    const shared::Ground ground = shared::meet_ground(ray, beam.ground);
-    const shared::Crossing crossing = shared::next_crossing(ray, beam.period, beam.overlap);
-    const CpuHit hit = nearest(ray, ground.limit < crossing.limit ? ground.limit : crossing.limit);
-    if (hit.found) return landings.count_element(number, hit);
-    if (ground.t <= crossing.t) return landings.count_ground(number, ray, ground.t);
-    if (++crossings > shared::max_crossings) return landings.count_lost(number);
-    ray.origin = shared::enter_next_period(ray, crossing, beam.period);
-  }
-}
-
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, std::span<std::uint32_t> counters,
                            std::span<shared::Landing> landing) const {
   finish_ray(beam, paused, LandingCounter(bvh_, domain_, beam, counters, landing, paused.ray));
@@ -103,11 +103,23 @@ void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRa
 
 void CpuTracer::finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused,
                            const LandingCounter& landings) const {
-  const shared::Ray ray = shared::make_ray(paused.origin, beam.direction);
-  if (domain_.periodic) {
-    follow_in_endless_canopy(beam, paused.ray, ray, paused.crossings, landings);
+  Search search;
+  BeamWay way(beam, domain_, landings, paused.ray, paused.origin, paused.crossings, search);
+  while (way.goes_on(nearest(search.ray, search.limit), search)) {
+  }
+}
+
+void CpuTracer::count_part(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end,
+                           const LandingCounter& landings) const {
+  if (walk_ == CpuWalk::every_element) {
+    for (std::uint32_t ray = first; ray < end; ++ray) {
+      finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landings);
+    }
+  } else if (pays_in_bundles(beam, triangle_size_squared_)) {
+    count_in_bundles(bvh_, domain_, beam, first, end, landings);
   } else {
-    follow_in_isolated_stand(beam, paused.ray, ray, landings);
+    BeamSearches searches(beam, domain_, first, end, landings);
+    search_side_by_side(bvh_, searches);
   }
 }
 
@@ -127,12 +139,8 @@ TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const Land
     if (stop && stop()) return TraceOutcome::stopped;
     const Stopwatch watch;
     const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch), [&](const auto& range) {
-      if (walk_ == CpuWalk::tree) return count_in_bundles(bvh_, domain_, beam, range.begin(), range.end(), landings);
-      for (std::uint32_t ray = range.begin(); ray < range.end(); ++ray) {
-        finish_ray(beam, {shared::beam_origin(beam, ray), 0, ray, 0}, landings);
-      }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch),
+                      [&](const auto& range) { count_part(beam, range.begin(), range.end(), landings); });
     beam_budget_.record_duration(end - first, watch.seconds());
     first = end;
   }

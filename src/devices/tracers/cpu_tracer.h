@@ -46,10 +46,7 @@ class CpuTracer final : public Tracer {
   TraceOutcome count_landings(const shared::BeamBlock& beam, const LandingCounter& landings, const StopQuestion& stop);
   void finish_ray(const shared::BeamBlock& beam, const shared::PausedRay& paused, const LandingCounter& landings) const;
   [[nodiscard]] CpuHit nearest(const shared::Ray& ray, float limit, OwnElement own = {}) const;
-  void follow_in_isolated_stand(const shared::BeamBlock& beam, std::uint32_t number, const shared::Ray& ray,
-                                const LandingCounter& landings) const;
-  void follow_in_endless_canopy(const shared::BeamBlock& beam, std::uint32_t number, shared::Ray ray, std::uint32_t crossings,
-                                const LandingCounter& landings) const;
+  void count_part(const shared::BeamBlock& beam, std::uint32_t first, std::uint32_t end, const LandingCounter& landings) const;
 
   const Bvh& bvh_;
   TraceDomain domain_;

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace sunfleck {
 namespace {
@@ -37,6 +39,25 @@ std::vector<double> all_absorptances(const RadiationModel& model) {
     }
   }
   return absorptances;
+}
+
+// Returns the elements with landings, in ascending order. Most elements have none in a replicate, and counters that are 0 are
+// passed over many at a time.
+std::vector<std::uint32_t> elements_with_landings(const CounterLayout& layout, std::span<const std::uint32_t> counters) {
+  constexpr std::size_t at_a_time = 16;
+  const std::span<const std::uint32_t> bins = counters.subspan(layout.first_bin_word, 2 * std::size_t{layout.first_bin.back()});
+  std::vector<std::uint32_t> elements;
+  std::uint32_t element = 0;
+  for (std::size_t first = 0; first < bins.size(); first += at_a_time) {
+    const std::span<const std::uint32_t> some = bins.subspan(first, std::min(at_a_time, bins.size() - first));
+    if (std::accumulate(some.begin(), some.end(), 0U, std::bit_or()) == 0) continue;
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      if (some[k] == 0) continue;
+      while (layout.first_bin[element + 1] <= (first + k) / 2) ++element;
+      if (elements.empty() || elements.back() != element) elements.push_back(element);
+    }
+  }
+  return elements;
 }
 
 // What vegetation as a whole is judged against at least, as a share of what it would receive with nothing around it; the same
@@ -91,10 +112,9 @@ DirectSums Conversion::sum(std::span<const std::uint32_t> counters) const {
 }
 
 void Conversion::sum_elements(std::span<const std::uint32_t> counters, DirectSums& sums) const {
-  for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+  sums.hit = elements_with_landings(layout, counters);
+  for (const std::uint32_t e : sums.hit) {
     const BeamLandings element = element_landings(counters, e);
-    if (element.both() == 0) continue;
-    sums.hit.push_back(static_cast<std::uint32_t>(e));
     const std::uint32_t number = surfaces.number_of[e];
     const Surface& surface = surfaces.of[number];
     sums.surface[number] += element;

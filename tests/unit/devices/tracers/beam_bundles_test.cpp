@@ -2,6 +2,7 @@
 // part of it.
 #include "devices/tracers/beam_bundles.h"
 #include "devices/tracers/cpu_tracer.h"
+#include "devices/tracers/packet_bundles.h"
 
 #include "physics/transport/model/beam_block.h"
 #include "shared/beam.h"
@@ -129,6 +130,30 @@ TEST(BeamBundles, LoseRaysThatCrossTooManyPeriods) {
     const shared::PausedRay ray{shared::beam_origin(beam, 0), 0, 0, 0};
     CpuTracer(test.prepared.bvh, tracer_scene(test.model)).finish_ray(beam, ray, counters, {});
     EXPECT_EQ(got.counters, counters);
+  }
+}
+
+TEST(BeamBundles, PayWhereRaysAreClose) {
+  const Case test(leaves_on(unit_plot, sun_at(40, 130)));
+  constexpr float size_squared = 0.03F * 0.03F;
+  EXPECT_TRUE(pays_in_bundles(test.beam(50, 50), size_squared));
+  EXPECT_FALSE(pays_in_bundles(test.beam(10, 10), size_squared));
+  EXPECT_FALSE(pays_in_bundles(test.beam(10, 1000), size_squared));
+  EXPECT_FALSE(pays_in_bundles(test.beam(1000, 10), size_squared));
+}
+
+// The tracer follows the rays of a wide grid side by side, and those of a fine one in bundles.
+TEST(BeamBundles, AreCountedAsTheTracerCountsGridsOfAnyWidth) {
+  for (const Plot& plot : {unit_plot, unit_stand}) {
+    const Case test(leaves_on(plot, sun_at(25, 310)));
+    CpuTracer tracer(test.prepared.bvh, tracer_scene(test.model));
+    for (const auto& [side, fine] : {std::pair{1U, false}, {3U, false}, {150U, true}}) {
+      const shared::BeamBlock beam = test.beam(side, side);
+      EXPECT_EQ(pays_in_bundles(beam, triangle_size_squared(test.prepared.bvh)), fine);
+      Landed got = test.nothing(beam);
+      ASSERT_EQ(tracer.record_beam(beam, got.counters, got.landings, {}), TraceOutcome::finished);
+      EXPECT_TRUE(got == test.one_by_one(beam, 0, side * side)) << side;
+    }
   }
 }
 
