@@ -28,6 +28,16 @@ std::string in_shell(std::string_view name) {
   return word + "'";
 }
 
+std::string utf8_of_latin1(std::string_view text) {
+  std::string utf8;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x80) utf8 += static_cast<char>(0xc0U | code >> 6U);
+    utf8 += static_cast<char>(code < 0x80 ? code : 0x80U | (code & 0x3fU));
+  }
+  return utf8;
+}
+
 std::optional<char32_t> take_code_point(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

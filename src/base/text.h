@@ -17,6 +17,9 @@ namespace sunfleck {
 // Returns a name as a word of a shell's command: in single quotes unless it has only letters, digits and "_-./".
 [[nodiscard]] std::string in_shell(std::string_view name);
 
+// Returns text in Latin-1 (ISO 8859-1), where each byte is a character, as UTF-8.
+[[nodiscard]] std::string utf8_of_latin1(std::string_view text);
+
 // Removes the next code point of UTF-8 from the text, which is not empty, and returns it. Returns nothing for invalid bytes, and
 // removes at least one of them. Overlong forms, surrogates and values above U+10FFFF are invalid (Unicode 15.0, table 3-7).
 [[nodiscard]] std::optional<char32_t> take_code_point(std::string_view& text);

@@ -5,6 +5,7 @@
 #include "base/text_reader.h"
 #include "files/formats/mesh/dae_geometry.h"
 #include "files/formats/mesh/mesh_builder.h"
+#include "files/formats/mesh/organ_name.h"
 #include "files/formats/mesh/xml_file.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,7 @@ struct DaeVisit {
   pugi::xml_node node;
   glm::dmat4 to_scene{1.0};
   std::optional<std::uint32_t> object;  // the builder's object of the nearest node with a name
+  bool names_organ = false;             // that name is one like plant1_leaf7
   int instances = 0;                    // how many <instance_node> lead here
 };
 
@@ -51,7 +53,8 @@ class DaeReader {
     const DaeFrame frame = read_frame();
     std::vector<DaeVisit> open;
     if (const pugi::xml_node instance = root_.child("scene").child("instance_visual_scene"))
-      push_children(open, {dae_target(xml_, elements_, instance, "url", "visual_scene"), frame.to_scene, std::nullopt, 0});
+      push_children(open,
+                    {dae_target(xml_, elements_, instance, "url", "visual_scene"), frame.to_scene, std::nullopt, false, 0});
     while (!open.empty()) {
       const DaeVisit visit = open.back();
       open.pop_back();
@@ -102,7 +105,7 @@ class DaeReader {
   static void push_children(std::vector<DaeVisit>& open, const DaeVisit& parent) {
     for (pugi::xml_node child = parent.node.last_child(); child; child = child.previous_sibling())
       if (child.name() == std::string_view("node") || child.name() == std::string_view("instance_node"))
-        open.push_back({child, parent.to_scene, parent.object, parent.instances});
+        open.push_back({child, parent.to_scene, parent.object, parent.names_organ, parent.instances});
   }
 
   void enter(DaeVisit visit, std::vector<DaeVisit>& open) {
@@ -114,7 +117,11 @@ class DaeReader {
     }
     visit.to_scene = visit.to_scene * local_transform(visit.node);
     const std::string_view name = trimmed(name_of(visit.node));
-    if (!name.empty()) visit.object = builder_.add_object(name);
+    const bool names_organ = organ_from_name(name).has_value();
+    if (names_organ || (!name.empty() && !visit.names_organ)) {
+      visit.object = builder_.add_object(name);
+      visit.names_organ = names_organ;
+    }
     for (const pugi::xml_node instance : visit.node.children("instance_geometry")) add_geometry(instance, visit);
     if (visit.node.child("instance_controller"))
       warn(printable(

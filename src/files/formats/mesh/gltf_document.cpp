@@ -127,9 +127,9 @@ std::string percent_decoded(std::string_view uri) {
 // Returns whether a path is inside the glTF file's folder after following symbolic links.
 bool lies_in_folder_of(const fs::path& gltf, const fs::path& file) {
   std::error_code code;
-  const fs::path folder = fs::weakly_canonical(gltf.parent_path().empty() ? fs::path(".") : gltf.parent_path(), code);
+  const fs::path folder = fs::weakly_canonical(fs::absolute(gltf).parent_path(), code);
   if (code) return false;
-  const fs::path found = fs::weakly_canonical(file, code);
+  const fs::path found = fs::weakly_canonical(fs::absolute(file), code);  // a relative path without a file would stay relative
   return !code && std::mismatch(folder.begin(), folder.end(), found.begin(), found.end()).first == folder.end();
 }
 

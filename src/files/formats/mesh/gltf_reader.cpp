@@ -1,6 +1,7 @@
 #include "files/formats/mesh/gltf_reader.h"
 
 #include "base/log.h"
+#include "base/text.h"
 #include "base/text_reader.h"
 #include "files/formats/mesh/gltf_document.h"
 #include "files/formats/mesh/mesh_builder.h"
@@ -68,15 +69,35 @@ class GltfReader {
       open.pop_back();
       enter(visit, open);
     }
+    warn_of_poses();
     return builder_.take();
   }
 
  private:
+  // Extensions that say nothing about surfaces or where they stand begin with these words.
   void refuse_if_unread(std::string_view extension) const {
-    constexpr std::array<std::string_view, 4> unread{instances, "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-                                                     "KHR_mesh_quantization"};
-    if (std::find(unread.begin(), unread.end(), extension) != unread.end())
-      refuse(source_, 0, fmt::format("needs the extension {}", extension), "it is not supported", "export the file without it");
+    constexpr std::array<std::string_view, 7> harmless{"KHR_materials_", "KHR_texture_", "KHR_lights_",  "KHR_xmp",
+                                                       "EXT_texture_",   "EXT_lights_",  "MSFT_texture_"};
+    if (std::any_of(harmless.begin(), harmless.end(), [&](std::string_view word) { return extension.starts_with(word); }))
+      return;
+    refuse(source_, 0, fmt::format("needs the extension {}", in_quotes(extension)), "it is not supported",
+           "export the file without it");
+  }
+
+  void warn_of_poses() const {
+    if (posed_ == 0) return;
+    warn(printable(
+        fmt::format("{}: skins and morph targets are not read ({}); the triangles are those of the mesh at rest; apply "
+                    "the pose before you export the file",
+                    source_.file.string(), counted(posed_, "node"))));
+  }
+
+  // Returns whether a skin or the weights of morph targets move the node's triangles.
+  static bool is_posed(const GltfObject& node, const GltfObject& mesh) {
+    if (node.find("skin") != nullptr) return true;
+    const auto of_mesh = mesh.get<std::vector<double>>("weights");
+    const auto weights = node.get<std::vector<double>>("weights", of_mesh);
+    return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0.0; });
   }
 
   void warn_of_cutouts() const {
@@ -123,6 +144,7 @@ class GltfReader {
     if (node.find("mesh") != nullptr) {
       const GltfObject mesh = file_.item("meshes", node.get("mesh", -1), "mesh");
       positions_.clear();
+      if (is_posed(node, mesh)) ++posed_;
       if (const auto name = mesh.get<std::string>("name"); node.get<std::string>("name").empty() && !name.empty())
         visit.organ.object = builder_.add_object(name);
       for (std::size_t i = 0; i < mesh.count("primitives"); ++i)
@@ -326,6 +348,7 @@ class GltfReader {
   GltfObject file_;
   MeshBuilder builder_;
   std::vector<bool> visited_;
+  std::size_t posed_ = 0;                           // nodes with a skin, or with weights of morph targets
   std::unordered_map<int, VertexRange> positions_;  // of the current node, by accessor
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "base/text_reader.h"
 #include "files/formats/mesh/organ_name.h"
 #include "files/formats/mesh/organ_split.h"
@@ -83,7 +84,7 @@ std::uint32_t MeshBuilder::default_organ(std::uint32_t optics) {
 }
 
 std::uint32_t MeshBuilder::add_object(std::string_view name) {
-  objects_.push_back({printable(name), std::nullopt});
+  objects_.push_back({printable(is_utf8(name) ? std::string(name) : utf8_of_latin1(name)), std::nullopt});
   return static_cast<std::uint32_t>(objects_.size() - 1);
 }
 

@@ -32,10 +32,12 @@ void check_arrays(const Mesh& mesh) {
                   "write it in parts");
 }
 
-// Returns the organ for the label. A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2.
+// Returns the organ for the label. A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2. Of a
+// surface whose optics name no part of a plant, such as `green`, it states the organ.
 Organ organ_of_label(const Mesh& mesh, std::size_t triangle) {
   const Organ& organ = mesh.organs[mesh.organ_of[triangle]];
-  return {organ.plant, mesh.optics_names[mesh.optics_of[triangle]], organ.rank};
+  const std::string& optics = mesh.optics_names[mesh.optics_of[triangle]];
+  return {organ.plant, role_from_name(optics) ? optics : organ.name, organ.rank};
 }
 
 // Returns the label of a triangle, which has this number in its organ.

@@ -71,7 +71,10 @@ class ObjText {
     } else if (key == "f" || key == "usemtl" || key == "o" || key == "g") {
       if (key == "f") check_face(line, rest);
       if (key == "usemtl") has_material_ = !trimmed(rest).empty();
-      if (key == "o") object_ = trimmed(rest);
+      if (key == "o") {
+        object_ = trimmed(rest);
+        group_ = {};
+      }
       if (key == "g") group_ = trimmed(rest);
       faces_.append(key).append(" ").append(trimmed(rest)).append("\n");
     }

@@ -51,6 +51,14 @@ class PlyBody {
 
   double next(PlyType type) { return encoding_ == PlyEncoding::ascii ? next_text() : next_binary(type); }
 
+  // Passes over a number, which may be anything in a text file: programs write nan where they know no value.
+  void skip(PlyType type) {
+    if (encoding_ == PlyEncoding::ascii)
+      static_cast<void>(next_text_word());
+    else
+      static_cast<void>(next_binary(type));
+  }
+
   // Returns the line of the last number; 0 in binary files.
   [[nodiscard]] std::size_t line() const { return encoding_ == PlyEncoding::ascii ? header_lines_ + lines_.number() : 0; }
 
@@ -62,13 +70,18 @@ class PlyBody {
     refuse(source_, line(), "the file ends too early", "the header announces more numbers", "export the file again");
   }
 
-  double next_text() {
+  std::string_view next_text_word() {
     std::string_view word = next_word(rest_);
     while (word.empty()) {
       if (!lines_.next()) refuse_end();
       rest_ = lines_.line();
       word = next_word(rest_);
     }
+    return word;
+  }
+
+  double next_text() {
+    const std::string_view word = next_text_word();
     const std::optional<double> number = parse_number(word);
     if (!number) refuse(source_, line(), in_quotes(word), "not a finite number", "correct the number");
     return *number;
@@ -198,6 +211,10 @@ class PlyReader {
         skip_list(property);
         continue;
       }
+      if (property.use == PlyUse::none) {
+        body_.skip(property.type);
+        continue;
+      }
       const double value = body_.next(property.type);
       names.read(property, value);
       if (property.use < PlyUse::x || property.use > PlyUse::z) continue;
@@ -218,6 +235,8 @@ class PlyReader {
         read_corners(property);
       else if (property.list_size)
         skip_list(property);
+      else if (property.use == PlyUse::none)
+        body_.skip(property.type);
       else
         names.read(property, body_.next(property.type));
     }
@@ -273,7 +292,7 @@ class PlyReader {
   }
 
   void skip_list(const PlyProperty& property) {
-    for (std::size_t left = list_size(property); left > 0; --left) static_cast<void>(body_.next(property.type));
+    for (std::size_t left = list_size(property); left > 0; --left) body_.skip(property.type);
   }
 
   void read_corners(const PlyProperty& property) {

@@ -1,5 +1,6 @@
 #include "files/formats/mesh/xml_file.h"
 
+#include "base/file.h"
 #include "base/text_reader.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <new>
 #include <optional>
+#include <string>
 
 namespace sunfleck {
 
@@ -22,11 +24,19 @@ std::string_view next_xml_word(std::string_view& text) {
   return word;
 }
 
+// Returns the text of an element without the comments and elements in it.
+std::string text_of(pugi::xml_node element) {
+  std::string text;
+  for (const pugi::xml_node part : element.children()) text += part.value();
+  return text;
+}
+
 }  // namespace
 
-XmlFile::XmlFile(const MeshSource& source) : source_(source) {
+XmlFile::XmlFile(const MeshSource& source) : source_(source), is_utf8_(is_utf8(source.bytes)) {
+  const pugi::xml_encoding encoding = is_utf8_ ? pugi::encoding_utf8 : pugi::encoding_auto;
   const pugi::xml_parse_result result =
-      document_.load_buffer(source.bytes.data(), source.bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+      document_.load_buffer(source.bytes.data(), source.bytes.size(), pugi::parse_default, encoding);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) refuse(source, line_at(result.offset), "is not well-formed XML", result.description(), "export the file again");
 }
@@ -41,7 +51,8 @@ pugi::xml_node XmlFile::root(std::string_view name) const {
 
 std::vector<double> XmlFile::numbers(pugi::xml_node element) const {
   std::vector<double> values;
-  std::string_view text = element.child_value();
+  const std::string whole = text_of(element);
+  std::string_view text = whole;
   for (std::string_view word = next_xml_word(text); !word.empty(); word = next_xml_word(text)) {
     const std::optional<double> value = parse_number(word);
     if (!value) refuse_at(element, fmt::format("<{}>: {}", element.name(), in_quotes(word)), "not a finite number");
@@ -52,7 +63,8 @@ std::vector<double> XmlFile::numbers(pugi::xml_node element) const {
 
 std::vector<std::int64_t> XmlFile::integers(pugi::xml_node element) const {
   std::vector<std::int64_t> values;
-  std::string_view text = element.child_value();
+  const std::string whole = text_of(element);
+  std::string_view text = whole;
   for (std::string_view word = next_xml_word(text); !word.empty(); word = next_xml_word(text)) {
     const std::optional<std::int64_t> value = parse_integer(word);
     if (!value) refuse_at(element, fmt::format("<{}>: {}", element.name(), in_quotes(word)), "not a whole number");
@@ -73,7 +85,7 @@ void XmlFile::refuse_at(pugi::xml_node element, std::string_view what, std::stri
 }
 
 std::size_t XmlFile::line_at(std::ptrdiff_t offset) const {
-  if (offset < 0) return 0;
+  if (offset < 0 || !is_utf8_) return 0;  // the offset is one in the text as UTF-8
   const std::string_view before = source_.bytes.substr(0, static_cast<std::size_t>(offset));
   return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }

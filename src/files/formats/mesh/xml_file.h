@@ -13,7 +13,7 @@ namespace sunfleck {
 
 class XmlFile {
  public:
-  // Parses the bytes, which must be UTF-8. Entities of a document type are not expanded and nothing else is opened. Throws
+  // Parses the bytes: UTF-8, or else what the file declares of UTF-16, UTF-32 and Latin-1. Entities of a document type are not expanded and nothing else is opened. Throws
   // Error (input) if they are no well-formed XML. `source` must outlive the object.
   explicit XmlFile(const MeshSource& source);
 
@@ -34,6 +34,7 @@ class XmlFile {
   [[nodiscard]] std::size_t line_at(std::ptrdiff_t offset) const;
 
   const MeshSource& source_;
+  bool is_utf8_;
   pugi::xml_document document_;
 };
 

@@ -38,6 +38,33 @@ TEST(DaeReader, NodesNameOrgansAndMaterialsAreBound) {
       << "the symbol, where nothing is bound";
 }
 
+TEST(DaeReader, NamesOfOrgansHoldForTheNodesBelow) {
+  const std::string part = "<node name=\"Blade\">" + instance + "</node>";
+  const std::string other = "<node name=\"plant2_stem\">" + instance + "</node>";
+  const Mesh mesh = read_dae_text(with_nodes("<node name=\"plant2_leaf3\">" + part + other + part + "</node>" + part));
+  EXPECT_EQ(mesh.organs, (std::vector<Organ>{{2, "leaf", 3}, {2, "stem", 0}, {1, "Blade", 0}}));
+}
+
+TEST(DaeReader, CommentsCutNoNumbersOff) {
+  const std::string list = "<p>";
+  const Mesh mesh = read_dae_text(swapped(dae_square(), list, list + "<!-- corners -->"));
+  EXPECT_EQ(mesh.triangles.size(), read_dae_text(dae_square()).triangles.size());
+  const std::string text = dae_square();
+  const std::size_t middle = text.find(' ', text.find(list));
+  const Mesh cut = read_dae_text(text.substr(0, middle) + "<!-- more --> " + text.substr(middle));
+  EXPECT_EQ(cut.triangles, mesh.triangles);
+}
+
+TEST(DaeReader, TextIsInTheEncodingThatTheFileDeclares) {
+  const std::string body = with_nodes("<node name=\"Bl\xfctt\">" + instance + "</node>");
+  const std::size_t root = body.find("<COLLADA");
+  const Mesh mesh = read_dae_text("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" + body.substr(root));
+  EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "Bl\xc3\xbctt", 0}}));
+  std::string wide = "\xff\xfe";
+  for (const char c : dae_square().substr(dae_square().find("<COLLADA"))) wide.append({c, '\0'});
+  EXPECT_EQ(read_dae_text(wide).organs, (std::vector<Organ>{{1, "blade", 0}}));
+}
+
 TEST(DaeReader, UnitAndUpAxis) {
   const auto second = [](std::string_view up, const MeshImport& import = {}) {
     return read_dae_text(swapped(swapped(dae_square(), "meter=\"1\"", "meter=\"0.01\""), "Y_UP", up), import).vertices[1];

@@ -172,6 +172,47 @@ TEST(GltfReader, TransparencyIsSaidToBeIgnored) {
   EXPECT_NE(said.find("material 'leaf': its transparency texture is not read"), std::string::npos) << said;
 }
 
+TEST(GltfReader, PosesAreSaidToBeIgnored) {
+  const auto said_of = [](const json& document) {
+    testing::internal::CaptureStderr();
+    start_log(Verbosity::normal);
+    EXPECT_EQ(read_glb(document).triangles.size(), 2U);
+    return testing::internal::GetCapturedStderr();
+  };
+  json document = gltf_document();
+  document["meshes"][0]["weights"] = {0.0, 0.0};
+  EXPECT_EQ(said_of(document), "");
+  const char* words = "a.glb: skins and morph targets are not read (1 node)";
+  document["meshes"][0]["weights"] = {0.0, 0.5};
+  EXPECT_NE(said_of(document).find(words), std::string::npos);
+  document["nodes"][0]["weights"] = {0.0, 0.0};
+  EXPECT_EQ(said_of(document), "") << "the node's weights count";
+  document["nodes"][0]["skin"] = 0;
+  EXPECT_NE(said_of(document).find(words), std::string::npos);
+}
+
+TEST(GltfReader, RefusesWhatItMustUnderstandAndDoesNot) {
+  json document = gltf_document();
+  document["extensionsRequired"] = {"KHR_materials_unlit", "EXT_texture_webp"};
+  EXPECT_EQ(read_glb(document).triangles.size(), 2U);
+  for (const char* extension : {"KHR_mesh_quantization", "KHR_draco_mesh_compression", "MY_geometry", "KHR_node_visibility"}) {
+    document["extensionsRequired"] = {"KHR_materials_unlit", extension};
+    EXPECT_NE(refusal_of([&] {
+                static_cast<void>(read_glb(document));
+              }).find(std::string("needs the extension '") + extension + "' (it is not supported)"),
+              std::string::npos);
+  }
+}
+
+// A relative path without a file behind it lies in the folder, too.
+TEST(GltfReader, SaysThatABufferIsMissing) {
+  const TempFolder folder;
+  json document = gltf_document();
+  document["buffers"][0]["uri"] = "gone.bin";
+  const std::filesystem::path file = std::filesystem::relative(folder.write("a.gltf", document.dump()));
+  EXPECT_NE(refusal_of([&] { static_cast<void>(read_mesh(file, {})); }).find("there is no such file"), std::string::npos);
+}
+
 TEST(GltfReader, BuffersInFilesBesideIt) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "parts");

@@ -151,6 +151,30 @@ TEST(MeshReader, ObjMaterialsAndGroups) {
   EXPECT_EQ(mesh.organ_of, (std::vector<std::uint32_t>{0, 1, 2, 1, 3}));
 }
 
+// Groups before objects tell no faces apart, and are not counted as if they did.
+TEST(MeshReader, ObjObjectsEndGroups) {
+  const TempFolder folder;
+  const Mesh mesh =
+      read_text(folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\ng one\no a\nf 1 2 3\ng two\no b\nf 1 2 3\ng three\nf 1 2 3\n",
+                as_it_stands("plain"));
+  EXPECT_EQ(mesh.organs, (std::vector<Organ>{{1, "a", 0}, {1, "b", 0}}));
+}
+
+// Programs write nan where they know no value of a property.
+TEST(MeshReader, PlyValuesThatAreNotUsed) {
+  const TempFolder folder;
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nproperty float area\nend_header\n";
+  const std::string corners = "0 0 0 nan\n1 0 0 -inf\n0 1 0 none\n3 0 1 2 nan\n";
+  const Mesh mesh = read_text(folder, "a.ply", head + "property float scalar\n" + faces + corners, as_it_stands("plain"));
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+  const std::string used = head + "property float red\n" + faces + corners;
+  EXPECT_NE(refusal_of([&] {
+              static_cast<void>(read_text(folder, "b.ply", used, as_it_stands("plain")));
+            }).find("b.ply:12: 'nan' (not a finite number)"),
+            std::string::npos);
+}
+
 TEST(MeshReader, NodeNamesGiveOrgans) {
   EXPECT_EQ(organ_from_name("plant1_leaf7"), (Organ{1, "leaf", 7}));
   EXPECT_EQ(organ_from_name("plant12_leaf7.001"), (Organ{12, "leaf", 7}));

@@ -108,6 +108,19 @@ TEST(MeshText, ACanKnowsLeavesAndStems) {
   EXPECT_EQ(optics_in_order(read_mesh(folder / "a.can", {})), expected);
 }
 
+// A material without a word for a part of a plant says nothing about the part.
+TEST(MeshText, ACanTakesThePartFromTheOrganWhereTheMaterialNamesNone) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  mesh.triangles.assign(3, {0, 1, 2});
+  mesh.organs = {{1, "leaf", 3}, {1, "culm", 0}, {2, "ear", 0}};
+  mesh.optics_names = {"green", "brown", "leaf2"};
+  mesh.organ_of = mesh.optics_of = {0, 1, 2};
+  const std::string text = can_text(mesh);
+  for (const char* label : {"p 1 100001003000 3 ", "p 1 100001000000 3 ", "p 1 200002001000 3 "})
+    EXPECT_NE(text.find(label), std::string::npos) << text;
+}
+
 TEST(MeshText, RefusesWhatHasNoPlace) {
   const TempFolder folder;
   const auto message = [&](const Mesh& mesh, const char* name, ErrorKind kind = ErrorKind::input) {

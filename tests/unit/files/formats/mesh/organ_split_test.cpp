@@ -109,7 +109,8 @@ TEST(Organs, NodesOfAGltf) {
 
 TEST(Organs, NamesThatATableCannotHold) {
   const TempFolder folder;
-  EXPECT_EQ(organs_of(read_split(folder, "a.obj", corners + "o Bl\xfctenblatt\nf 1 2 3\n")), Names{"Bl?tenblatt 0"});
+  EXPECT_EQ(organs_of(read_split(folder, "a.obj", corners + "o Bl\xfctenblatt\nf 1 2 3\n")), Names{"Bl\xc3\xbctenblatt 0"});
+  EXPECT_EQ(organs_of(read_split(folder, "b.obj", corners + "o ear\x1b[1m\nf 1 2 3\n")), Names{"ear?[1m 0"});
 }
 
 std::string coloured_ply(const std::string& vertex, const std::string& vertices, const std::string& face,
