@@ -18,14 +18,18 @@ double largest_scattering(const RadiationModel& model, std::size_t band) {
 
 }  // namespace
 
-double LightEvents::largest_w_m2(std::size_t band) const {
-  return std::max(beam_w_m2[band], other_w_m2[band]);
+double LightEvents::other_w_m2(std::size_t band) const {
+  return std::max(sky_w_m2[band], start_w_m2[band] * packet_share[band]);
 }
 
-// Returns the light of single events. A packet carries what a side of its place sends, divided by the number of packets
-// expected from there. That number is the packets of the first round times the mean, over the scattering bands, of the quanta
-// that the side sends divided by all quanta waiting at the start. With light in one band only, a packet carries at most that
-// band's start times the number of scattering bands, divided by the packets (see PacketDraw).
+double LightEvents::largest_w_m2(std::size_t band) const {
+  return std::max(beam_w_m2[band], other_w_m2(band));
+}
+
+// A packet carries what a side of its place sends, divided by the number of packets expected from there. That number is the packets
+// of the first round times the mean, over the scattering bands, of the quanta that the side sends divided by all quanta waiting at
+// the start. With light in one band only, a packet carries at most that band's start times the number of scattering bands, divided
+// by the packets (see PacketDraw).
 LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta, const Incidence& incidence) {
   LightEvents events;
   double scattering_bands = 0.0;
@@ -35,15 +39,13 @@ LightEvents make_light_events(const RadiationModel& model, const std::vector<Ban
     const double beam_w_m2 = model.has_beam() ? events.beam_share * model.bands[b].direct_w_m2 : 0.0;
     const double sky_w_m2 = static_cast<double>(quanta[b].sky) * quanta[b].w_m2_per_quantum;
     const double lamps_w_m2 = static_cast<double>(quanta[b].lamps) * quanta[b].w_m2_per_quantum;
-    double other_w_m2 = 0.0;
-    if (incidence.sky_rays > 0) other_w_m2 = sky_w_m2 * incidence.sky_weight / static_cast<double>(incidence.sky_rays);
-    if (scatters(model, b) && incidence.packets > 0.0) {
-      const double first_w_m2 = beam_w_m2 * static_cast<double>(incidence.rays) + sky_w_m2;
-      const double start_w_m2 = lamps_w_m2 + first_w_m2 * largest_scattering(model, b);
-      other_w_m2 = std::max(other_w_m2, start_w_m2 * scattering_bands / incidence.packets);
-    }
     events.beam_w_m2.push_back(beam_w_m2);
-    events.other_w_m2.push_back(other_w_m2);
+    events.sky_w_m2.push_back(incidence.sky_rays > 0 ? sky_w_m2 * incidence.sky_weight / static_cast<double>(incidence.sky_rays)
+                                                     : 0.0);
+    events.scattering.push_back(largest_scattering(model, b));
+    const double first_w_m2 = beam_w_m2 * static_cast<double>(incidence.rays) + sky_w_m2;
+    events.start_w_m2.push_back(lamps_w_m2 + first_w_m2 * events.scattering.back());
+    events.packet_share.push_back(scatters(model, b) && incidence.packets > 0.0 ? scattering_bands / incidence.packets : 0.0);
   }
   return events;
 }

@@ -103,12 +103,13 @@ JudgedError indirect_error(const RunSums& sums, const Accuracy& accuracy) {
   if (std::isnan(quantile)) return {no_value, {}};
   JudgedError largest;
   const auto n = static_cast<double>(sums.replicates);
+  const LightEvents events = sums.events(accuracy.confidence);
   for (std::size_t b = 0; b < sums.bands.size(); ++b) {
     const double per_quantum = conversion.quanta[b].w_m2_per_quantum;
     const double least = least_judged_share * static_cast<double>(sums.ledgers[b].incident) * per_quantum / n;
     if (!(least > 0.0)) continue;
     const double unshot = sums.unshot_w_m2(b);
-    const double one_packet = sums.unseen(conversion.events.other_w_m2[b], accuracy.confidence);
+    const double one_packet = sums.unseen(events.other_w_m2(b), accuracy.confidence);
     const auto judge = [&](const ReplicateMean& mean, double absorptance, double at_least, JudgedFigure::Of of) {
       const double half_width = mean.estimate(quantile, one_packet * absorptance).half_width;
       largest.raise({(half_width + unshot) / std::max(mean.mean(), at_least), {.of = of, .band = b}});

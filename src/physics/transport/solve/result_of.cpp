@@ -23,7 +23,7 @@ class ResultMaker {
         model_(sums.conversion.model),
         layout_(sums.conversion.layout),
         quanta_(sums.conversion.quanta),
-        events_(sums.conversion.events),
+        events_(sums.events(confidence)),
         exposure_(sums.conversion.exposure),
         areas_(sums.conversion.areas),
         confidence_(confidence),
@@ -73,7 +73,7 @@ class ResultMaker {
     for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
       errors.unshot_share.push_back(sums_.ledgers[b].unshot_share());
       errors.event_w.push_back(events_.largest_w_m2(b) * model_.plot.area_m2());
-      errors.other_event_w.push_back(events_.other_w_m2[b] * model_.plot.area_m2());
+      errors.other_event_w.push_back(events_.other_w_m2(b) * model_.plot.area_m2());
     }
     return errors;
   }
@@ -98,9 +98,9 @@ class ResultMaker {
     const double any = events_.largest_w_m2(band);
     if (!model_.plot.periodic && (model_.has_beam() || model_.has_sky()))  // what lamps emit is exact
       result.incident.half_width = sums_.bands[band].incident.estimate(quantile_, unseen(any)).half_width;
-    const double packet = scatters(model_, band) ? events_.other_w_m2[band] : 0.0;
+    const double packet = scatters(model_, band) ? events_.other_w_m2(band) : 0.0;
     const double beam = areas_.beam_meets_canopy() ? events_.beam_w_m2[band] : 0.0;
-    const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2[band]) : !model_.plot.periodic ? packet : 0.0;
+    const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2(band)) : !model_.plot.periodic ? packet : 0.0;
     result.absorbed_vegetation =
         estimate(ledger.absorbed_vegetation, sums_.bands[band].vegetation, any * areas_.vegetation_absorptance[band]);
     if (std::find(areas_.on_structures.begin(), areas_.on_structures.end(), true) != areas_.on_structures.end()) {
@@ -188,7 +188,7 @@ class ResultMaker {
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double absorptance = areas_.organ_absorptance[o * sums_.bands.size() + b];
         const double beam = areas_.organ_facing_m2[o] > 0.0 ? events_.beam_w_m2[b] : 0.0;
-        const double other = absorptance > 0.0 ? events_.other_w_m2[b] : 0.0;
+        const double other = absorptance > 0.0 ? events_.other_w_m2(b) : 0.0;
         result.direct.push_back(sums_.organs[o].direct[b].estimate(quantile_, unseen(beam * per_area)));
         const double scattered_share = sums_.unshot_share_of_scattered(b);
         result.indirect.push_back(with_unshot_share(sums_.organs[o].indirect[b], other * per_area, scattered_share));
@@ -264,7 +264,7 @@ class ResultMaker {
         const std::size_t place = p * sums_.bands.size() + b;
         const double absorptance = plants.largest_absorptance[place];
         const double beam_w = plants.beam_meets[p] ? events_.beam_w_m2[b] * model_.plot.area_m2() : 0.0;
-        const double other_w = events_.other_w_m2[b] * model_.plot.area_m2();
+        const double other_w = events_.other_w_m2(b) * model_.plot.area_m2();
         result.incident_w.push_back(of_both(sums_.plants[p].incident[b], varies[place], beam_w, other_w, b));
         result.absorbed_w.push_back(
             of_both(sums_.plants[p].absorbed[b], varies[place], beam_w * absorptance, other_w * absorptance, b));
@@ -313,8 +313,8 @@ class ResultMaker {
         result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], unseen_lit_m2);
       }
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
-        const double any = std::max(areas_.beam_meets_canopy() ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2[b]);
-        const double packet = scatters(model_, b) ? events_.other_w_m2[b] : 0.0;
+        const double any = std::max(areas_.beam_meets_canopy() ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2(b));
+        const double packet = scatters(model_, b) ? events_.other_w_m2(b) : 0.0;
         result.down.push_back(means.down[b].estimate(quantile_, unseen(below_top ? any : 0.0)));
         result.up.push_back(means.up[b].estimate(quantile_, unseen(packet)));
         if (below_top) result.down.back().half_width += unshot_through_w_m2(b);
@@ -334,7 +334,7 @@ class ResultMaker {
   const RadiationModel& model_;
   const CounterLayout& layout_;
   const std::vector<BandQuanta>& quanta_;
-  const LightEvents& events_;
+  LightEvents events_;
   const BeamExposure& exposure_;
   const CanopyAreas& areas_;
   double confidence_, quantile_;

@@ -67,6 +67,17 @@ double RunSums::unseen(double event, double confidence) const {
   return unseen_events(confidence) * event / static_cast<double>(replicates);
 }
 
+LightEvents RunSums::events(double confidence) const {
+  LightEvents events = conversion.events;
+  if (replicates == 0) return events;
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const double waited = first_waiting[b] * conversion.quanta[b].w_m2_per_quantum / static_cast<double>(replicates);
+    const double one_landing = events.scattering[b] * std::max(events.beam_w_m2[b], events.sky_w_m2[b]);
+    events.start_w_m2[b] = std::min(events.start_w_m2[b], waited + unseen(one_landing, confidence));
+  }
+  return events;
+}
+
 std::vector<double> RunSums::element_errors(double t_quantile) const {
   std::vector<double> errors;
   errors.reserve(absorbed_spread.size());

@@ -60,6 +60,9 @@ struct RunSums {
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;
 
+  // Returns the conversion's events, where packets carry no more than what waited for them and what may have escaped all replicates.
+  [[nodiscard]] LightEvents events(double confidence) const;
+
   // Returns the unshot flux of a replicate, W m-2 of ground.
   [[nodiscard]] double unshot_w_m2(std::size_t band) const;
   // Returns what unshot flux may still add to any figure of light other than the beam's, relative to the figure. It need not wait

@@ -31,6 +31,7 @@ std::vector<double> other_noise(const RunSums& sums, double confidence) {
   const Conversion& conversion = sums.conversion;
   const auto replicates = static_cast<double>(sums.replicates);
   const double to_normal = t_quantile(confidence, sums.replicates) / normal_quantile(confidence);
+  const LightEvents events = sums.events(confidence);
   std::vector<double> noise;
   for (std::size_t b = 0; b < sums.bands.size(); ++b) {
     const double w_m2_per_quantum = conversion.quanta[b].w_m2_per_quantum;
@@ -47,7 +48,7 @@ std::vector<double> other_noise(const RunSums& sums, double confidence) {
     if (!(w_m2_per_quantum > 0.0)) {  // a band without light
       noise.push_back(0.0);
     } else {
-      noise.push_back(lit > 0.0 ? sum / lit : conversion.events.other_w_m2[b] / w_m2_per_quantum);
+      noise.push_back(lit > 0.0 ? sum / lit : events.other_w_m2(b) / w_m2_per_quantum);
     }
   }
   return noise;
