@@ -25,9 +25,7 @@ struct Stand {
 };
 
 // Returns the extent of everything but soil.
-Stand stand_of(const RadiationModel& model) {
-  const Canopy& canopy = model.canopy;
-  const Surfaces surfaces(model);
+Stand stand_of(const Canopy& canopy, const Surfaces& surfaces) {
   Stand stand;
   for (std::size_t e = 0; e < canopy.size(); ++e) {
     if (surfaces.at(e).soil()) continue;
@@ -81,15 +79,16 @@ void warn_of_copies(const Canopy& canopy, const std::string& file, std::vector<s
 }
 
 // Warns of plants all of whose organs are recognised, none of them as a leaf.
-void warn_of_leafless_plants(const RadiationModel& model, const std::string& file, std::vector<std::string>& warnings) {
+void warn_of_leafless_plants(const Canopy& canopy, const Surfaces& surfaces, const std::string& file,
+                             std::vector<std::string>& warnings) {
   struct Plant {
     bool has_leaves = false;
     Surface example;
   };
   std::map<std::uint32_t, Plant> plants;
-  for (const Surface& surface : Surfaces(model).of) {
+  for (const Surface& surface : surfaces.of) {
     if (!is_vegetation(surface.role)) continue;
-    Plant& plant = plants[model.canopy.organs[surface.organ].plant];
+    Plant& plant = plants[canopy.organs[surface.organ].plant];
     plant.has_leaves = plant.has_leaves || surface.role == Role::leaf;
     plant.example = surface;
   }
@@ -100,8 +99,25 @@ void warn_of_leafless_plants(const RadiationModel& model, const std::string& fil
   warnings.push_back(fmt::format(
       "{}: {} of {} plants {} no leaf that would count in the leaf area index, e.g. plant {}, whose organ \"{}\" is a "
       "{}; if it is a leaf, add role = \"leaf\" to [optics.{}] or to the [[geometry]]",
-      file, count, plants.size(), count == 1 ? "has" : "have", number, printable(model.canopy.organs[plant.example.organ].name),
-      role_name(plant.example.role), printable(model.canopy.optics_names[plant.example.optics])));
+      file, count, plants.size(), count == 1 ? "has" : "have", number, printable(canopy.organs[plant.example.organ].name),
+      role_name(plant.example.role), printable(canopy.optics_names[plant.example.optics])));
+}
+
+// Warns of leaves, stems and fruits without the number of a plant beside plants that have numbers.
+void warn_of_plantless_vegetation(const Canopy& canopy, const Surfaces& surfaces, const std::string& file,
+                                  std::vector<std::string>& warnings) {
+  const auto plant_of = [&](const Surface& surface) { return canopy.organs[surface.organ].plant; };
+  const auto is_plantless = [&](const Surface& surface) { return is_vegetation(surface.role) && plant_of(surface) == 0; };
+  const auto is_numbered = [&](const Surface& surface) { return is_vegetation(surface.role) && plant_of(surface) > 0; };
+  const auto example = std::find_if(surfaces.of.begin(), surfaces.of.end(), is_plantless);
+  if (example == surfaces.of.end() || std::none_of(surfaces.of.begin(), surfaces.of.end(), is_numbered)) return;
+  const auto count = std::count_if(surfaces.number_of.begin(), surfaces.number_of.end(),
+                                   [&](std::uint32_t number) { return is_plantless(surfaces.of[number]); });
+  warnings.push_back(fmt::format(
+      "{}: {} of leaves, stems and fruits, e.g. of the organ \"{}\", {} to no plant, because the number of the plant is 0, and "
+      "{} in no row of plants.csv; number plants from 1",
+      file, count == 1 ? "1 triangle" : fmt::format("{} triangles", count), printable(canopy.organs[example->organ].name),
+      count == 1 ? "belongs" : "belong", count == 1 ? "is" : "are"));
 }
 
 }  // namespace
@@ -111,8 +127,10 @@ std::vector<std::string> plausibility_warnings(const Scene& scene, bool all_z_up
   std::vector<std::string> warnings;
   warn_of_missing_light(scene, file, warnings);
   warn_of_copies(scene.model.canopy, file, warnings);
-  warn_of_leafless_plants(scene.model, file, warnings);
-  const Stand stand = stand_of(scene.model);
+  const Surfaces surfaces(scene.model);
+  warn_of_leafless_plants(scene.model.canopy, surfaces, file, warnings);
+  warn_of_plantless_vegetation(scene.model.canopy, surfaces, file, warnings);
+  const Stand stand = stand_of(scene.model.canopy, surfaces);
   if (stand.top_m > tallest_m) {
     warnings.push_back(fmt::format(
         "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01", file, stand.top_m));

@@ -254,6 +254,26 @@ TEST_F(SceneReader, WarnsOnceOfPlantsWithoutALeaf) {
   }
 }
 
+TEST_F(SceneReader, WarnsOfVegetationThatBelongsToNoPlant) {
+  const std::string corners = plates_obj.substr(0, plates_obj.find("f 1"));
+  const auto warnings_of = [&](const std::string& objects) {
+    write(folder_ / "plates.obj", corners + objects);
+    return read(good_scene).warnings;
+  };
+  const std::vector<std::string> two = warnings_of("o plant0_blade1\nf 1 2 3\nf 4 5 6\no plant1_leaf1\nusemtl leaf\nf 1 2 6\n");
+  ASSERT_EQ(two.size(), 1U);
+  EXPECT_NE(two[0].find("scene.toml: 4 triangles of leaves, stems and fruits, e.g. of the organ \"blade\", belong to no plant"),
+            std::string::npos)
+      << two[0];
+  EXPECT_NE(two[0].find("; number plants from 1"), std::string::npos) << two[0];
+  for (const char* fine : {"o plant0_wall\nf 1 2 3\no plant0_soil\nf 4 5 6\no plant1_leaf1\nusemtl leaf\nf 1 2 6\n",
+                           "o plant0_blade1\nf 1 2 3\no plant0_leaf2\nusemtl leaf\nf 4 5 6\n",
+                           "o soil\nf 1 2 3\no leaf\nusemtl leaf\nf 4 5 6\n"}) {
+    const std::vector<std::string> none = warnings_of(fine);
+    EXPECT_TRUE(none.empty()) << none.front();
+  }
+}
+
 TEST_F(SceneReader, NewLightChangesNoRoles) {
   const Scene scene = read(good_scene);
   const auto relit = [&](const std::string& text) {
