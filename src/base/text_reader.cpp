@@ -23,6 +23,15 @@ double limit_of(const std::string& word) {
   return ::strtod_l(word.c_str(), nullptr, plain);
 }
 
+// Returns where the first cell of a line ends; npos for the last one. Two quotes within quotes stand for one.
+std::size_t end_of_cell(std::string_view line, char separator) {
+  const std::size_t end = line.find(separator), open = line.substr(0, end).find_first_not_of(blanks);
+  if (open == line.npos || line[open] != '"') return end;
+  std::size_t close = line.find('"', open + 1);
+  while (close != line.npos && line.substr(close + 1).starts_with('"')) close = line.find('"', close + 2);
+  return close == line.npos ? end : line.find(separator, close);
+}
+
 }  // namespace
 
 void refuse_line(const std::filesystem::path& file, std::size_t line, std::string_view what, std::string_view why,
@@ -72,7 +81,7 @@ std::string_view unquoted(std::string_view cell) {
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator) {
   cells.clear();
   while (true) {
-    const std::size_t end = line.find(separator);
+    const std::size_t end = end_of_cell(line, separator);
     cells.push_back(unquoted(line.substr(0, end)));
     if (end == line.npos) return;
     line.remove_prefix(end + 1);

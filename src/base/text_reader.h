@@ -39,7 +39,8 @@ class LineReader {
 // Returns the cell of a table trimmed and without enclosing double quotes.
 [[nodiscard]] std::string_view unquoted(std::string_view cell);
 
-// Splits a line of a table at its separators into `cells`, each unquoted. The views point into `line`.
+// Splits a line of a table at its separators into `cells`, each unquoted. A cell in double quotes keeps the separators in it; a
+// quote that nothing closes is a character like any other. The views point into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
 
 // Parse a finite number or an integer; return nothing unless the whole word is one.

@@ -20,8 +20,8 @@ struct WeatherFile {
 // Returns true for .csv and .epw, in upper or lower case.
 [[nodiscard]] bool is_weather_file(const std::filesystem::path& file);
 
-// Reads a weather file; values are W m-2 in 0..most_broadband_w_m2. Throws Error (input), one line `FILE:LINE: what (why);
-// cure`. Adds the file to `files` if that is given.
+// Reads a weather file; values are W m-2 in 0..most_broadband_w_m2. Ctrl-Z at its end, by which DOS ended a text, is ignored.
+// Throws Error (input), one line `FILE:LINE: what (why); cure`. Adds the file to `files` if that is given.
 //
 // CSV: a line of column names, then one row per interval in ascending order. `time` is ISO 8601 with an offset and marks the
 // start of the interval. An interval lasts until the next row; the last one is as long as the one before. A step longer than

@@ -129,6 +129,22 @@ TEST(EpwReader, HoursEndAtTheirNumberInLocalTime) {
   EXPECT_EQ(interval_at(file.weather, {2002, 8, 7, 16, 0}).ghi_w_m2, 0.0);  // hour 1 of 8 August
 }
 
+TEST(EpwReader, KeepsCommasInTheNameOfAPlace) {
+  const TempFolder folder;
+  const WeatherFile file = read_weather(folder.write("a.epw", swapped(epw(), "LOCATION,Beijing,", "LOCATION,\"Bei, jing\",")));
+  ASSERT_TRUE(file.place);
+  EXPECT_NEAR(file.place->latitude_rad, 39.80 * 3.14159265358979323846 / 180.0, 1e-12);
+  EXPECT_NEAR(file.place->altitude_m, 31.3, 1e-12);
+  EXPECT_EQ(file.weather.zone_minutes, 480);
+}
+
+TEST(WeatherReader, IgnoresTheEndMarkOfDos) {
+  const TempFolder folder;
+  EXPECT_EQ(read_weather(folder.write("a.epw", epw() + "\x1a")).weather.intervals.size(), 8760U);
+  EXPECT_EQ(read_weather(folder.write("a.csv", good_csv + "\x1a\x1a")).weather.intervals.size(), 3U);
+  EXPECT_THROW(static_cast<void>(read_weather(folder.write("b.csv", "\x1a"))), Error);
+}
+
 TEST(EpwReader, KnowsLeapYearsAndHalfHourZones) {
   const TempFolder folder;
   const WeatherFile leap = read_weather(folder.write("a.epw", epw(true)));
