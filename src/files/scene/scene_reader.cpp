@@ -249,10 +249,11 @@ void check_same_roles(const TomlTable& root, const RadiationModel& model, std::s
   }
 }
 
-// Refuses what its name tells to be a mesh, also in formats for which there is no reader.
+// Refuses what its name tells to be a mesh, and plants, point clouds and models in formats for which there is no reader.
 void refuse_mesh(const std::filesystem::path& file) {
-  constexpr std::string_view foreign[] = {".3ds", ".3mf", ".abc",  ".blend", ".c4d", ".dxf",  ".fbx",  ".iges", ".igs", ".max",
-                                          ".off", ".skp", ".step", ".stp",   ".usd", ".usda", ".usdc", ".usdz", ".wrl", ".x3d"};
+  constexpr std::string_view foreign[] = {".3ds", ".3mf", ".abc",  ".bgeom", ".blend", ".c4d", ".dxf", ".fbx", ".geom", ".iges",
+                                          ".igs", ".las", ".laz",  ".lpy",   ".max",   ".mtg", ".off", ".ops", ".skp",  ".step",
+                                          ".stp", ".usd", ".usda", ".usdc",  ".usdz",  ".vtk", ".vtp", ".wrl", ".x3d"};
   const std::string place = printable(file.string()) + ": not a scene";
   if (is_mesh_file(file)) throw_input(place, "this is a mesh", "write a scene for it: sunfleck new FILE -o stand.toml");
   if (std::find(std::begin(foreign), std::end(foreign), lower_case(file.extension().string())) != std::end(foreign))

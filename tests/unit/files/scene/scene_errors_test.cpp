@@ -291,8 +291,8 @@ TEST_F(BrokenSceneFile, RefusesAMesh) {
   EXPECT_NE(message->find("stand.glb: not a scene (this is a mesh); write a scene for it"), std::string::npos) << *message;
 }
 
-TEST_F(BrokenSceneFile, RefusesAMeshThatNoReaderIsFor) {
-  for (const char* name : {"stand.fbx", "STAND.USDZ"}) {
+TEST_F(BrokenSceneFile, RefusesFormatsThatNoReaderIsFor) {
+  for (const char* name : {"stand.fbx", "STAND.USDZ", "stand.ops", "stand.mtg", "stand.bgeom", "stand.lpy", "cloud.las"}) {
     write(folder_ / name, "FBXHeaderExtension:  {\n");
     const auto message = message_of([&] { static_cast<void>(read_scene(folder_ / name)); });
     ASSERT_TRUE(message);
