@@ -18,14 +18,13 @@ array line[6] = ['#000000', '#009E73', '#D55E00', '#0072B2', '#7F7F7F', '#D55E00
 array k[6]  # the columns of these quantities and of the sunlit leaf fraction
 do for [c = 1:5] { k[c] = column_of(band . '_' . quantity[c]) }
 k[6] = column_of('sunlit_leaf_fraction')
-elevation = column_of('elevation_deg')
 if (k[1] == 0) { print no_column_of_this_band }
 
 # The extent of the steps on the local clock, which ignores the offset after the time.
 start(time) = strptime('%Y-%m-%dT%H:%M:%S', time[1:19])
 begin = NaN; end = NaN; steps = 0; structures = 0; lit = 0
 cell(c) = c > 0 && valid(c) ? column(c) : NaN
-amount(c) = c < 6 || column(elevation) > 0 ? cell(k[c]) : NaN
+amount(c) = cell(k[c])
 half_width(c) = k[c] > 0 ? cell(k[c] + 1) : NaN
 stats table using (begin = begin == begin ? begin : start(strcol(1)), end = start(strcol(1)) + column(2), steps = steps + 1, \
   amount(5) > 0 ? structures = 1 : 0, amount(6) == amount(6) ? lit = 1 : 0) nooutput

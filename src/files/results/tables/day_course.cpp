@@ -18,7 +18,7 @@
 namespace sunfleck {
 namespace {
 
-constexpr Estimate zero{0.0, 0.0};
+constexpr Estimate zero{0.0, 0.0}, no_figure{no_value, no_value};
 
 constexpr Estimate StepBand::*terms[] = {&StepBand::incident,           &StepBand::absorbed_vegetation,
                                          &StepBand::absorbed_structure, &StepBand::absorbed_soil,
@@ -212,18 +212,20 @@ StepLight step_light(const RadiationModel& model, const RadiationResult& result)
 
 StepLight no_light(const RadiationModel& model) {
   const std::size_t bands = model.bands.size();
-  const std::vector<Estimate> dark(bands, zero);
+  const std::vector<Estimate> dark(bands, zero), no_class(bands, no_figure);
+  const double leaves_m2 = area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)];
+  const std::vector<Estimate>& shaded = leaves_m2 > 0.0 ? dark : no_class;
   SensorReading no_reading;
   for (const auto part : parts) no_reading.*part = zero;
   StepLight light{std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
                   std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
-                  zero,
-                  {zero, {area_of_roles_m2(model)[static_cast<std::size_t>(Role::leaf)], 0.0}, dark, dark, dark, dark},
+                  no_figure,
+                  {zero, {leaves_m2, 0.0}, no_class, shaded, no_class, shaded},
                   std::vector<Estimate>(count_plants(model) * bands, zero),
                   std::vector<KindFlux>(OrganKinds(model).of.size() * bands, {zero, 0.0}),
                   std::vector<SensorReading>(sensor_points(model) * bands, no_reading),
                   std::vector<SensorReading>(model.sensors.size() * bands, no_reading),
-                  std::vector<Estimate>(model.planes.size(), {no_value, no_value}),
+                  std::vector<Estimate>(model.planes.size(), no_figure),
                   std::vector<Estimate>(model.planes.size() * bands, zero)};
   light.of_shared = no_joint_errors(light);
   return light;

@@ -91,7 +91,7 @@ struct StepLight {
 
 // Returns the light of a step from its result.
 [[nodiscard]] StepLight step_light(const RadiationModel& model, const RadiationResult& result);
-// Returns the light of an unlit step.
+// Returns the light of an unlit step: all leaves are in the shade, and nothing that needs a beam has a value.
 [[nodiscard]] StepLight no_light(const RadiationModel& model);
 
 // Returns errors of 0 for every figure of the light.

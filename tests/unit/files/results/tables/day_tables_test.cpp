@@ -153,7 +153,16 @@ TEST(DayTables, DayIsWrittenStepByStep) {
   EXPECT_EQ(table.number(0, "B_unshot"), 1.0);
   EXPECT_EQ(table.number(0, "sunlit_leaf_fraction"), 0.5);
   EXPECT_EQ(table.cell(1, "A_incident"), "0");
-  EXPECT_EQ(table.cell(1, "sunlit_leaf_fraction_error"), "0");
+  EXPECT_EQ(table.cell(1, "sunlit_leaf_fraction"), "");
+  EXPECT_EQ(table.cell(1, "sunlit_leaf_fraction_error"), "");
+  EXPECT_EQ(table.cell(1, "sunlit_leaf_area_index"), "0");
+  EXPECT_GT(table.number(1, "shaded_leaf_area_index"), 0.0);
+  for (const char* name :
+       {"A_absorbed_sunlit", "A_absorbed_sunlit_error", "A_absorbed_sunlit_sd", "A_absorbed_sunlit_sd_error"})
+    EXPECT_EQ(table.cell(1, name), "") << name;
+  for (const char* name :
+       {"A_absorbed_shaded", "A_absorbed_shaded_error", "A_absorbed_shaded_sd", "A_absorbed_shaded_sd_error"})
+    EXPECT_EQ(table.cell(1, name), "0") << name;
   EXPECT_EQ(table.cell(2, "A_reflected_error"), "");
 }
 
