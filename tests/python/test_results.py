@@ -79,10 +79,21 @@ def test_an_error_is_named_after_its_column(result):
 
 
 def test_every_column_is_described(result):
-    for table, columns in (("organs.csv", result.organs), ("profile.csv", result.profile), ("triangles.csv", result.triangles)):
+    for table, rows_only, columns in (
+        ("organs.csv", [], result.organs),
+        ("plants.csv", [], result.plants),
+        ("profile.csv", [], result.profile),
+        ("triangles.csv", ["triangle"], result.triangles),
+        ("sensors.csv", ["sensor", "point"], {name: values for name, values in result.sensors[0].items() if name != "name"}),
+        ("sensor_means.csv", [], result.sensor_means),
+    ):
         described = result.describe(table)
-        assert list(described) == list(columns)
-        assert all(meaning for _, meaning in described.values())
+        assert list(described) == rows_only + list(columns), table
+        assert all(meaning for _, meaning in described.values()), table
+        header = next(line for line in result.table(table).splitlines() if not line.startswith("#"))
+        assert set(header.split(",")) <= set(described), table
+    assert result.describe("triangles.csv")["triangle"] == ("1", "number of the triangle, in the order of the files")
+    assert result.describe("sensors.csv")["point"] == ("1", "number of the point in its sensor, from 0")
     assert result.describe("organs.csv")["area_m2"] == ("m2", "one-sided area")
     assert result.describe("profile.csv")["PAR_down_error"] == ("W m-2", "half-width of the confidence interval of PAR_down")
     for ask in (result.describe, result.table):

@@ -71,8 +71,9 @@ py::dict columns_of(const Table& table, const py::handle& holder, py::dict first
 py::dict descriptions_of(const Table& table) {
   py::dict descriptions;
   for (const Column& column : table.columns) {
-    if (column.is_in(in_arrays))
-      descriptions[column.name.c_str()] = py::make_tuple(column.unit, column.meaning, column.is_in(in_netcdf));
+    const bool is_array = column.is_in(in_arrays);
+    if (is_array || column.is_in(in_csv))
+      descriptions[column.name.c_str()] = py::make_tuple(column.unit, column.meaning, is_array && column.is_in(in_netcdf));
   }
   return descriptions;
 }

@@ -12,7 +12,7 @@ namespace sunfleck {
 // the memory of the table. Columns that the table does not own become read-only views of memory that `holder` keeps alive.
 [[nodiscard]] pybind11::dict columns_of(const Table& table, const pybind11::handle& holder = {}, pybind11::dict first = {});
 
-// Returns the unit, the meaning and whether netCDF has it, for each column that is in_arrays.
+// Returns the unit, the meaning and whether xarray has it, for each column of the table as text or as arrays.
 [[nodiscard]] pybind11::dict descriptions_of(const Table& table);
 
 }  // namespace sunfleck

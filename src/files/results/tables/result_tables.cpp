@@ -132,9 +132,9 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
   const std::vector<Organ>& organs = model.canopy.organs;
   const std::vector<OrganResult>& light = result.organs;
   Table table{"Organs, those of soil elements included; the ground of [soil] has no row",
-              "area_m2: m2, one-sided; direct, indirect, absorbed: W m-2, mean over the organ's one-sided area; umol_m2_s: the "
-              "same in photons; _sunlit, _shaded: mean over that part of the area; _sd: standard deviation over it; _error: "
-              "half-width of the confidence interval",
+              "area_m2: m2, one-sided; sunlit_fraction: share of the area in direct sun; direct, indirect, absorbed: W m-2, "
+              "mean over the organ's one-sided area; umol_m2_s: the same in photons; _sunlit, _shaded: mean over that part of "
+              "the area; _sd: standard deviation over it; _error: half-width of the confidence interval",
               {},
               {organs.size()},
               {}};
@@ -166,8 +166,9 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
       "Plants: their leaves, stems and fruits together",
       fmt::format(
           "x, y, z: m ({}), where the plant was placed, or below the centroid of a plant whose mesh holds several; height_m: "
-          "m, from its lowest to its highest point; leaf_area_m2: m2, one-sided; incident, absorbed: W, of the whole plant; "
-          "absorbed_umol_s: the same in photons, umol s-1; _error: half-width of the confidence interval",
+          "m, from its lowest to its highest point; leaf_area_m2: m2, one-sided; sunlit_leaf_fraction: share of the leaf area "
+          "in direct sun; incident, absorbed: W, of the whole plant; absorbed_umol_s: the same in photons, umol s-1; _error: "
+          "half-width of the confidence interval",
           axes_text(model.plot.axes)),
       {},
       {plants.size()},

@@ -200,8 +200,9 @@ class Result:
         names = [sensor["name"] for sensor in self.sensors for _ in sensor["x"]]
         variables: dict[str, Any] = {"sensor_point_name": ("sensor_point", names)}
         for name, (unit, _) in self.describe("sensors.csv").items():
-            values = np.concatenate([sensor[name] for sensor in self.sensors])
-            variables[f"sensor_point_{name}"] = ("sensor_point", values, {"units": unit})
+            if name not in ("sensor", "point"):
+                values = np.concatenate([sensor[name] for sensor in self.sensors])
+                variables[f"sensor_point_{name}"] = ("sensor_point", values, {"units": unit})
         for name, (unit, _) in self.describe("sensor_means.csv").items():
             key = "sensor_name" if name == "sensor" else f"sensor_{name}"
             variables[key] = ("sensor", self.sensor_means[name], {"units": unit} if unit else {})

@@ -110,6 +110,13 @@ TEST(ResultWriter, OrgansAreQuotedAndUnknownsEmpty) {
   EXPECT_EQ(table.number(0, "B_absorbed_error"), 0.02 * table.number(0, "B_absorbed")) << "in W m-2";
 }
 
+TEST(ResultWriter, HeadsTellWhatSunlitSharesAre) {
+  const std::string organs = csv_head(small_record(), organs_table(small_model(), small_result()));
+  EXPECT_NE(organs.find("; sunlit_fraction: share of the area in direct sun;"), std::string::npos) << organs;
+  const std::string plants = csv_head(small_record(), plants_table(small_model(), small_result()));
+  EXPECT_NE(plants.find("; sunlit_leaf_fraction: share of the leaf area in direct sun;"), std::string::npos) << plants;
+}
+
 TEST(ResultWriter, TrianglesStandInTheScenesFrame) {
   const regression::Table table(triangles_csv(small_record(), small_model(), small_result()));
   expect_head(table);
