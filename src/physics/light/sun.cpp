@@ -33,6 +33,10 @@ void refuse_year_outside(const UtcTime& time, int first, int last) {
               "give a year between them");
 }
 
+double seconds_from_midnight(const UtcTime& time) {
+  return time.hour * 3600.0 + time.minute * 60.0 + time.second;
+}
+
 JulianDate julian_date(const UtcTime& time) {
   refuse_year_outside(time, first_year - 1, last_year + 1);
   double origin = 0.0, days = 0.0;
@@ -40,7 +44,7 @@ JulianDate julian_date(const UtcTime& time) {
     throw_input(moment_text(time), "no such date in the calendar", "give month 1..12 and a day that month has");
   if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59 || !(time.second >= 0.0 && time.second < 61.0))
     throw_input(moment_text(time), "no such time of day", "give hour 0..23, minute 0..59, second 0..60");
-  return {origin + days, (time.hour * 3600.0 + time.minute * 60.0 + time.second) / seconds_per_day};
+  return {origin + days, seconds_from_midnight(time) / seconds_per_day};
 }
 
 // Returns terrestrial minus universal time by the polynomials for 1900 to 1986 of Espenak and Meeus (2006), "Five millennium
@@ -153,7 +157,7 @@ double apparent_elevation_rad(double true_elevation_rad, const Air& air) {
 
 UtcTime plus_seconds(const UtcTime& time, double seconds) {
   const JulianDate date = julian_date(time);
-  const double from_midnight = time.hour * 3600.0 + time.minute * 60.0 + time.second + seconds;
+  const double from_midnight = seconds_from_midnight(time) + seconds;
   const double days = std::floor(from_midnight / seconds_per_day);
   double rest = from_midnight - days * seconds_per_day;
   UtcTime later;
@@ -168,8 +172,8 @@ UtcTime plus_seconds(const UtcTime& time, double seconds) {
 }
 
 double seconds_between(const UtcTime& origin, const UtcTime& time) {
-  const JulianDate from = julian_date(origin), to = julian_date(time);
-  return (to.midnight - from.midnight + (to.fraction - from.fraction)) * seconds_per_day;
+  const double days = julian_date(time).midnight - julian_date(origin).midnight;
+  return days * seconds_per_day + (seconds_from_midnight(time) - seconds_from_midnight(origin));
 }
 
 }  // namespace sunfleck

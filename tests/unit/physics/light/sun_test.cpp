@@ -158,6 +158,9 @@ TEST(plus_seconds, crosses_days_months_and_years) {
   EXPECT_NEAR(later.second, 15.25, 1e-9);
   EXPECT_EQ(plus_seconds({2004, 3, 1}, -86400.0).day, 29);
   EXPECT_NEAR(seconds_between({2004, 2, 28, 12}, plus_seconds({2004, 2, 28, 12}, 200000.5)), 200000.5, 1e-4);
+  for (int minute = 0; minute < 60; ++minute) {
+    EXPECT_EQ(seconds_between({2004, 2, 28, 23, minute}, {2004, 3, 1, 0, 59 - minute}), 86400.0 + 7140.0 - 120.0 * minute);
+  }
 }
 
 // Figures of the NREL SPA calculator, as clock times with the given offset. The calculator reports the events of a UTC date:

@@ -107,6 +107,17 @@ TEST(StationReader, LengthsAreStepsAndLongerOnesAreGaps) {
   EXPECT_NO_THROW(static_cast<void>(interval_at(file.weather, {2002, 8, 8, 12, 19})));
 }
 
+// 10 minutes are no whole number of days in doubles.
+TEST(StationReader, TheLastIntervalDoesNotHoldItsEnd) {
+  const TempFolder folder;
+  for (int minute = 0; minute < 30; ++minute) {
+    const auto row = [&](int interval) { return fmt::format("2023-07-10T12:{:02}:00+02:00,500\n", minute + 10 * interval); };
+    const Weather weather = read_weather(folder.write("a.csv", "time,ghi\n" + row(0) + row(1) + row(2))).weather;
+    EXPECT_THROW(static_cast<void>(interval_at(weather, {2023, 7, 10, 10, minute + 30})), Error) << minute;
+    EXPECT_EQ(interval_at(weather, {2023, 7, 10, 10, minute + 29, 59.999}).line, 4U) << minute;
+  }
+}
+
 TEST(EpwReader, HoursEndAtTheirNumberInLocalTime) {
   const TempFolder folder;
   const WeatherFile file = read_weather(folder.write("a.epw", epw()));
