@@ -139,6 +139,33 @@ TEST(JudgedError, OfSparseLeavesIsTheirOwn) {
   }
 }
 
+// Returns a level leaf of 1 m2 in the middle of a square plot, 0.5 m above its soil.
+RadiationModel leaf_over_floor(double side_m, double soil_reflectance) {
+  MeshMaker maker;
+  maker.organ("leaf");
+  const double middle_m = 0.5 * side_m;
+  maker.level(middle_m - 0.5, middle_m + 0.5, middle_m - 0.5, middle_m + 0.5, 0.5);
+  RadiationModel model = paper_model(maker.mesh(), {side_m, side_m, false}, sun_at(90.0, 0.0));
+  for (double& reflectance : model.soil->reflectance) reflectance = soil_reflectance;
+  return model;
+}
+
+// On black soil nothing comes back to the leaf, and a packet carries a part of what the leaf scatters: a few thousand of them show that
+// it gets next to nothing.
+TEST(JudgedError, OfALeafOverABlackFloorNeedsFewPackets) {
+  const RadiationResult result = simulate(leaf_over_floor(50.0, 0.0), to_bounds(0.01, 1));
+  EXPECT_EQ(result.stop, StopReason::bound_reached);
+  EXPECT_LT(result.indirect.packets, 1'000'000U);
+}
+
+// What the floor sends up to the leaf starts at the few landings near it, so that beam rays must not stay behind the packets.
+TEST(JudgedError, OfALeafOverAWideFloorIsReachedWithEnoughLandings) {
+  const RadiationResult result = simulate(leaf_over_floor(20.0, 0.15), to_bounds(0.02, 1));
+  EXPECT_EQ(result.stop, StopReason::bound_reached);
+  EXPECT_GE(8.0 * result.work.rays, result.work.packets);
+  EXPECT_LT(result.indirect.packets, 3'000'000U);
+}
+
 // A leaf below an opaque roof gets next to nothing, and the run still ends.
 TEST(JudgedError, OfAShadedLeafReachesItsBound) {
   MeshMaker maker;

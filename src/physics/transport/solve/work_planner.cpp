@@ -39,6 +39,9 @@ double cheap_rays_per_packet(std::size_t lights) {
 }
 // Largest multiple by which a run changes the work for the next one.
 constexpr double most_change = 16;
+// Packets start where beam rays landed, so that more of them than this for each ray lessen the error little: what a small leaf gets
+// from a wide floor depends on the few landings near it.
+constexpr double most_packets_per_ray = 8.0;
 // Half of a limit on rays or time is enough for this many replicates.
 constexpr int least_replicates = 8;
 // Exponents by which errors fall. The sampling error of a jittered grid falls with rays^-3/4 on shadow edges (validation
@@ -119,8 +122,8 @@ std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
       packets = forecast(pilot.packets, packet_growth(*pilots, asked_replicates()), affordable_growth(*pilots), fits);
     }
     fit_to_rays(pilot, pilots->rays_each, rays, packets);
-    const Work larger{chooses_rays ? ray_forecast.next_pilot(pilot.rays, rays.chosen) : pilot.rays,
-                      packet_forecast.next_pilot(pilot.packets, packets.chosen)};
+    const Work larger = with_enough_rays({chooses_rays ? ray_forecast.next_pilot(pilot.rays, rays.chosen) : pilot.rays,
+                                          packet_forecast.next_pilot(pilot.packets, packets.chosen)});
     if (fitted_to_time_ || (larger.rays == pilot.rays && larger.packets == pilot.packets)) return balanced(rays, packets);
     pilot = larger;
   }
@@ -156,10 +159,16 @@ void WorkPlanner::fit_to_rays(const Work& pilot, double rays_of_pilot, Part& ray
 Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
   Work work{rays.chosen, packets.chosen};
   const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
-  if (!held_back || !has_beam_) return work;
+  if (!held_back || !has_beam_) return with_enough_rays(work);
   const double fewer = std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope);
   work.rays = std::max(first_pilot.rays, std::min(1.0, spare_of_rays * fewer) * work.rays);
   if (for_organs()) work.rays = std::max(work.rays, std::min(rays.chosen, rays_per_packet_for_organs * work.packets));
+  return with_enough_rays(work);
+}
+
+Work WorkPlanner::with_enough_rays(Work work) const {
+  if (!has_beam_ || settings_.grid_m || settings_.max_rays) return work;
+  work.rays = std::max(work.rays, std::min(work.packets / most_packets_per_ray, static_cast<double>(max_grid_rays)));
   return work;
 }
 
@@ -186,7 +195,7 @@ bool WorkPlanner::far_too_small(const SeriesOutcome& pilots) const {
 Work WorkPlanner::begin_with(Work earlier) const {
   if (has_beam_) earlier.rays = std::max(first_pilot.rays, earlier.rays);
   if (maker_.has_indirect_pass()) earlier.packets = std::max(first_pilot.packets, earlier.packets);
-  return earlier;
+  return with_enough_rays(earlier);
 }
 
 std::vector<double> WorkPlanner::ray_needs(std::span<const double> rays, std::span<const SeriesOutcome> lights,

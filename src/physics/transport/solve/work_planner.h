@@ -105,6 +105,8 @@ class WorkPlanner {
   [[nodiscard]] double rays_within_limit() const;
   void fit_to_rays(const Work& pilot, double rays_of_pilot, Part& rays, Part& packets) const;
   [[nodiscard]] Work balanced(const Part& rays, const Part& packets) const;
+  // Returns the work with more rays where packets would start from too few landings.
+  [[nodiscard]] Work with_enough_rays(Work work) const;
   [[nodiscard]] double ray_growth(const SeriesOutcome& series, int replicates) const;
   [[nodiscard]] double packet_growth(const SeriesOutcome& series, int replicates) const;
   [[nodiscard]] double affordable_growth(const SeriesOutcome& pilots) const;
