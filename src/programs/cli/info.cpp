@@ -98,6 +98,8 @@ void add_memory(ordered_json& info, Scene scene, const RunOptions& options) {
   info["memory_bytes"] = memory->bytes;
   info["memory_without_pictures_bytes"] = memory->bytes_without_pictures;
   info["memory_device"] = simulation.device().name;
+  info["replicate_rays"] = static_cast<std::uint64_t>(memory->run.work.rays);
+  info["replicate_packets"] = static_cast<std::uint64_t>(memory->run.work.packets);
   info["replicates_at_once"] = memory->run.at_once;
   info["replicate_bytes"] = static_cast<std::uint64_t>(memory->run.replicate_bytes);
 }
@@ -215,6 +217,9 @@ void print_lines(const ordered_json& info) {
       info["memory_without_pictures_bytes"].get<double>() / mib,
       info["replicates_at_once"].get<double>() * info["replicate_bytes"].get<double>() / mib,
       info["replicates_at_once"].get<std::size_t>());
+  fmt::print("work of a replicate: {} of the beam, {} in the first round\n",
+             counted(info["replicate_rays"].get<std::size_t>(), "ray"),
+             counted(info["replicate_packets"].get<std::size_t>(), "packet"));
   if (info["sun"].is_null()) return;
   fmt::print("sun: elevation {:.4f} deg, azimuth {:.4f} deg\n", info["sun"]["elevation_deg"].get<double>(),
              info["sun"]["azimuth_deg"].get<double>());
