@@ -138,7 +138,8 @@ Broadband ineichen_perez(const ClearAir& air, double apparent_zenith_rad, double
   const double fh2 = std::exp(-air.altitude_m / 1250.0);
   const double cg1 = 5.09e-5 * air.altitude_m + 0.868;
   const double cg2 = 3.92e-5 * air.altitude_m + 0.0387;
-  const double global_w_m2 = cg1 * outside_w_m2 * cosine * std::exp(-cg2 * air_mass * (fh1 + fh2 * (turbidity - 1.0)));
+  const double fitted_w_m2 = cg1 * outside_w_m2 * cosine * std::exp(-cg2 * air_mass * (fh1 + fh2 * (turbidity - 1.0)));
+  const double global_w_m2 = std::min(outside_w_m2 * cosine, fitted_w_m2);
   const double b = 0.664 + 0.163 / fh1;
   const double by_turbidity_w_m2 = b * outside_w_m2 * std::exp(-0.09 * air_mass * (turbidity - 1.0));
   const double most_share = 1.0 - (0.1 - 0.2 * std::exp(-turbidity)) / (0.1 + 0.882 / fh1);

@@ -50,7 +50,9 @@ struct ClearAir {
 
 // Returns clear-sky irradiance after Ineichen and Perez 2002, without Perez enhancement, from the model's own quantities:
 // the zenith angle at which the sun is seen through the air, the absolute (pressure-corrected) air mass and the irradiance
-// outside the atmosphere. The parts add up with that zenith angle. Zero unless it is below pi / 2.
+// outside the atmosphere. The parts add up with that zenith angle. Zero unless it is below pi / 2. Above about 4000 m, far
+// above the stations to which the model was fitted, it can give more light than the sun sends: global irradiance is at most
+// that on level ground outside the atmosphere, which keeps the beam, too, below the one there.
 [[nodiscard]] Broadband ineichen_perez(const ClearAir& air, double apparent_zenith_rad, double air_mass,
                                        double extraterrestrial_normal_w_m2);
 

@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "support/error_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,6 +103,43 @@ TEST(Weather, ClearSkyFallsWithTurbidityAndRisesWithAltitude) {
   }
   EXPECT_GT(clear_sky({3.0, 2000.0}, paper_sun, paper_day).direct_normal_w_m2,
             clear_sky({3.0, 0.0}, paper_sun, paper_day).direct_normal_w_m2);
+}
+
+// Returns the global irradiance of Ineichen and Perez 2002 without a bound, and the largest beam that their rule for diffuse
+// light allows beside it.
+Broadband unbounded_clear_sky(const ClearAir& air, double cosine, double air_mass, double outside_w_m2) {
+  const double fh1 = std::exp(-air.altitude_m / 8000.0), fh2 = std::exp(-air.altitude_m / 1250.0);
+  const double cg1 = 5.09e-5 * air.altitude_m + 0.868, cg2 = 3.92e-5 * air.altitude_m + 0.0387;
+  const double turbid = air.linke_turbidity - 1.0;
+  const double global_w_m2 = cg1 * outside_w_m2 * cosine * std::exp(-cg2 * air_mass * (fh1 + fh2 * turbid));
+  const double by_turbidity_w_m2 = (0.664 + 0.163 / fh1) * outside_w_m2 * std::exp(-0.09 * air_mass * turbid);
+  const double most_share = 1.0 - (0.1 - 0.2 * std::exp(-air.linke_turbidity)) / (0.1 + 0.882 / fh1);
+  const double beam_w_m2 = std::min(by_turbidity_w_m2, global_w_m2 * most_share / cosine);
+  return {beam_w_m2, global_w_m2 - beam_w_m2 * cosine};
+}
+
+TEST(Weather, ClearSkyIsNoBrighterThanTheSun) {
+  for (double altitude_m = -500.0; altitude_m <= 9000.0; altitude_m += 500.0) {
+    for (const double turbidity : {1.0, 2.0, 3.0, 6.0, 20.0}) {
+      for (double zenith_deg = 0.0; zenith_deg < 90.0; zenith_deg += 10.0) {
+        const ClearAir air{turbidity, altitude_m};
+        const double zenith_rad = zenith_deg * degree, cosine = std::cos(zenith_rad);
+        const double air_mass = relative_air_mass(90.0 * degree - zenith_rad) * standard_pressure_hpa(altitude_m) / 1013.25;
+        const Broadband got = ineichen_perez(air, zenith_rad, air_mass, 1367.0);
+        const double global_w_m2 = got.direct_normal_w_m2 * cosine + got.diffuse_w_m2;
+        const std::string where = fmt::format("{} m, turbidity {}, zenith {}", altitude_m, turbidity, zenith_deg);
+        EXPECT_LE(got.direct_normal_w_m2, 1367.0) << where;
+        EXPECT_LE(global_w_m2, (1.0 + 1e-12) * 1367.0 * cosine) << where;
+        EXPECT_GE(got.diffuse_w_m2, 0.0) << where;
+        if (altitude_m > 4000.0) continue;
+        const Broadband fitted = unbounded_clear_sky(air, cosine, air_mass, 1367.0);
+        EXPECT_NEAR(got.direct_normal_w_m2, fitted.direct_normal_w_m2, 1e-9) << where;
+        EXPECT_NEAR(got.diffuse_w_m2, fitted.diffuse_w_m2, 1e-9) << where;
+      }
+    }
+  }
+  EXPECT_NEAR(clear_sky({2.0, 9000.0}, paper_sun, paper_day).global_w_m2(paper_sun),
+              extraterrestrial_normal_w_m2(1367.0, paper_day) * std::sin(paper_sun.elevation_rad), 0.2);
 }
 
 // For any irradiance and any sun: no part is negative, both add up, and the beam is no stronger than outside the atmosphere.
