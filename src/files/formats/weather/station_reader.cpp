@@ -94,8 +94,9 @@ class StationReader {
     WeatherInterval interval;
     interval.line = line_;
     interval.start = read_time(cells_[columns_.time]);
-    if (columns_.ghi != not_there) interval.ghi_w_m2 = read_value("ghi", cells_[columns_.ghi]);
-    if (columns_.dni != not_there) {
+    if (columns_.dni == not_there) {
+      interval.ghi_w_m2 = read_value("ghi", cells_[columns_.ghi]);
+    } else {
       interval.dni_w_m2 = read_value("dni", cells_[columns_.dni]);
       interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
     }

@@ -26,7 +26,7 @@ struct WeatherFile {
 // CSV: a line of column names, then one row per interval in ascending order. `time` is ISO 8601 with an offset and marks the
 // start of the interval. An interval lasts until the next row; the last one is as long as the one before. A step longer than
 // the most common one is an interval of the common length followed by a gap. Irradiance is in `ghi`, or in `dni` and `dhi`; if
-// all three are present, ghi is not used. Other columns are ignored, and so are blank lines and lines that begin with #. A
+// all three are present, ghi is not read. Other columns are ignored, and so are blank lines and lines that begin with #. A
 // missing value is refused.
 //
 // EPW: eight header lines, then 8760 hours (8784 in a leap year) of local standard time. The number of an hour, 1 to 24, marks

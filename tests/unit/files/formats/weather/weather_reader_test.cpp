@@ -71,6 +71,17 @@ TEST(StationReader, ReadsPartsInAnyOrderAmongOtherColumns) {
   EXPECT_NEAR(file.weather.intervals[0].length_s, 600.0, 1e-6);
 }
 
+TEST(StationReader, DoesNotReadGhiBesideItsParts) {
+  const TempFolder folder;
+  const WeatherFile file =
+      read_weather(folder.write("a.csv",
+                                "time,dni,dhi,ghi\n2002-08-08T10:00Z,500,100,\n2002-08-08T11:00Z,510,90,-9999\n"
+                                "2002-08-08T12:00Z,520,80,9999\n2002-08-08T13:00Z,530,70,none\n"));
+  ASSERT_EQ(file.weather.intervals.size(), 4U);
+  EXPECT_EQ(file.weather.intervals[3].dni_w_m2, 530.0);
+  for (const WeatherInterval& interval : file.weather.intervals) EXPECT_LT(interval.ghi_w_m2, 0.0);
+}
+
 // The cells are as R's write.csv writes them.
 TEST(StationReader, ReadsQuotedCells) {
   const TempFolder folder;
