@@ -37,11 +37,12 @@ PlaneReceiver read_plane(const TomlTable& table, const Plot& plot) {
   table.require("height", "height = 0.5, metres above the ground");
   PlaneReceiver plane;
   plane.height_m = *table.number("height", {.lo = 0.0, .hi = farthest_m, .cure = "give metres above the ground"});
-  const auto cells = table.numbers("cells", 2,
-                                   {.lo = 1.0,
-                                    .hi = most_cells,
-                                    .cure = plot.axes == Axes::south_up_west ? "give whole numbers, along X and along Z"
-                                                                             : "give whole numbers, along x and along y"});
+  const auto cells =
+      table.numbers("cells", 2,
+                    {.lo = 1.0,
+                     .hi = most_cells,
+                     .cure = plot.axes == Axes::south_up_west ? "give whole numbers, along X and along Z, such as [180, 240]"
+                                                              : "give whole numbers, along x and along y, such as [180, 240]"});
   if (!cells) {
     set_default_cells(plane, plot);
     return plane;

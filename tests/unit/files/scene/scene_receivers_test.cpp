@@ -73,6 +73,7 @@ TEST_F(SceneReceivers, RefusesWhatIsNoPlane) {
   expect_refused(head + "cells = [10, 0]\n", "cells", "plane.cells, item 2 = 0", "whole numbers");
   expect_refused(head + "cells = [10, 10.5]\n", "cells", "plane.cells", "10.5 is not a whole number");
   expect_refused(head + "cells = 10\n", "cells", "plane.cells = 10", "list of 2");
+  expect_refused(head + "cells = 4\n", "cells", "plane.cells = 4", "write it as [180, 240]");
   expect_refused(head + "cells = [10000, 10000]\n", "cells", "plane.cells", "1e+08 cells so far, but at most 6.4e+07");
   expect_refused(head + "cells = [8000, 8000]\n[[plane]]\nheight = 2\n", "height = 2", "plane.height", "use fewer");
   expect_refused(head + "cell = [10, 10]\n", "cell =", "plane.cell", "did you mean cells?");
