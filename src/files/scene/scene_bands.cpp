@@ -173,6 +173,7 @@ BandsInput read_equal_bands(const TomlTable& root, bool has_sun, bool has_sky, c
     }
     input.bands.push_back(std::move(band));
     input.lights.push_back(scaled(light, energy_in(spectrum, range) / energy));
+    input.per_w_m2.push_back(1.0);
   }
   return input;
 }
@@ -200,6 +201,7 @@ BandsInput read_bands(const TomlTable& root, const std::optional<SunInput>& sun,
     const double per_w_m2 = read_unit(table, band, spectrum);
     input.bands.push_back(std::move(band));
     input.lights.push_back(in_w_m2(read_band_light(table, sun.has_value(), sky.has_value(), weather), per_w_m2));
+    input.per_w_m2.push_back(per_w_m2);
     if (weather && !input.lights.back().share) {
       warnings.push_back(fmt::format("{}: it has its own irradiance, so [weather] does not affect it", table.place()));
     }

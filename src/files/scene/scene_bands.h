@@ -18,6 +18,7 @@ namespace sunfleck {
 struct BandsInput {
   std::vector<Waveband> bands;
   std::vector<BandLight> lights;  // [waveband]
+  std::vector<double> per_w_m2;   // [waveband], what a number in the band's unit is divided by to give W m-2
 };
 
 // `spectrum` is that of the light, null for equal energy at all wavelengths. It shares the light of `bands` out to the bands,

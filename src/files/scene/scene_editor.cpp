@@ -97,11 +97,42 @@ void list_bands(toml::table& root, const std::vector<Waveband>& bands) {
   root.insert_or_assign("band", std::move(list));
 }
 
+template <class ValueOf>
+toml::table by_band(const BandNames& names, const ValueOf& value_of) {
+  toml::table table;
+  for (std::size_t b = 0; b < names.size(); ++b) table.insert_or_assign(names[b], value_of(b));
+  return table;
+}
+
+// Writes in W m-2 what lamps emit in bands with another unit, before these lose it.
+void put_emission_in_w_m2(toml::table& root, const std::vector<Waveband>& bands) {
+  BandNames names;
+  std::vector<double> per_w_m2;
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const bool photons = root["band"][b]["unit"].value<std::string>() == "umol_m2_s";
+    names.push_back(bands[b].name);
+    per_w_m2.push_back(photons ? bands[b].umol_per_joule : 1.0);
+  }
+  toml::table* optics = root["optics"].as_table();
+  if (optics == nullptr || std::count(per_w_m2.begin(), per_w_m2.end(), 1.0) == std::ssize(per_w_m2)) return;
+  for (auto&& [name, item] : *optics) {
+    toml::table& surface = *item.as_table();
+    const auto emission = surface["emission"];
+    if (!emission) continue;
+    surface.insert_or_assign("emission", by_band(names, [&](std::size_t b) {
+                               const auto given =
+                                   emission.is_table() ? emission[names[b]].value<double>() : emission.value<double>();
+                               return *given / per_w_m2[b];
+                             }));
+  }
+}
+
 void put_irradiances(toml::table& root, const std::vector<Waveband>& bands) {
   root.erase("weather");
   if (root.contains("bands")) list_bands(root, bands);
   toml::array& list = *root["band"].as_array();
   EXPECT(list.size(), ==, bands.size());
+  put_emission_in_w_m2(root, bands);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     toml::table& table = *list[b].as_table();
     const Waveband& band = bands[b];
@@ -110,13 +141,6 @@ void put_irradiances(toml::table& root, const std::vector<Waveband>& bands) {
     table.insert_or_assign("diffuse", band.diffuse_w_m2);
     if (band.umol_per_joule > 0.0) table.insert_or_assign("umol_per_joule", band.umol_per_joule);
   }
-}
-
-template <class ValueOf>
-toml::table by_band(const BandNames& names, const ValueOf& value_of) {
-  toml::table table;
-  for (std::size_t b = 0; b < names.size(); ++b) table.insert_or_assign(names[b], value_of(b));
-  return table;
 }
 
 toml::table face_table(const BandNames& names, const std::vector<FaceOptics>& face) {

@@ -159,8 +159,8 @@ void append(std::vector<std::string>& warnings, const std::vector<std::string>& 
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-// Reads [sun], [sky], [weather] and [[band]].
-void read_light(const TomlTable& root, const SceneAccess& access, const SpectralLight& spectrum, Scene& scene) {
+// Reads [sun], [sky], [weather] and [[band]]; returns what numbers in the unit of each band are divided by to give W m-2.
+std::vector<double> read_light(const TomlTable& root, const SceneAccess& access, const SpectralLight& spectrum, Scene& scene) {
   const std::optional<SunInput> sun = read_sun(root);
   if (sun) {
     scene.model.sun = sun->position;
@@ -187,6 +187,7 @@ void read_light(const TomlTable& root, const SceneAccess& access, const Spectral
     scene.model.sky = std::move(now.sky);
   }
   append(scene.warnings, light_warnings(root, scene));
+  return std::move(bands.per_w_m2);
 }
 
 // Returns an access that always has a list of files: the caller's, or `own`.
@@ -208,10 +209,10 @@ OpticsByName read_all_but_geometry(const TomlTable& root, const SceneText& sourc
   scene.title = read_title(root, source.file);
   scene.model.plot = read_plot(root);
   const SpectralLight light = read_spectral_light(root, source.file, access);
-  read_light(root, access, light, scene);
+  const std::vector<double> per_w_m2 = read_light(root, access, light, scene);
   const SpectraAccess spectra{source.file, access, light};
   scene.model.soil = read_soil(root, scene.model.bands, scene.model.plot, spectra, scene.warnings);
-  OpticsByName optics = read_optics(root, scene.model.bands, spectra);
+  OpticsByName optics = read_optics(root, scene.model.bands, per_w_m2, spectra);
   scene.accuracy = read_accuracy(root);
   scene.camera = read_camera(root, scene.model.plot);
   scene.model.layers = read_layers(root, scene.model.layers);

@@ -22,7 +22,8 @@ constexpr std::size_t most_coefficients = 4'000'000;  // optics times bands; 32 
 
 constexpr NumberRange share{.lo = 0.0, .hi = 1.0, .is_share = true, .cure = "give a share of the incident light"};
 
-constexpr NumberRange exitance{.lo = 0.0, .hi = 1e15, .cure = "give the flux that leaves the upper side in W m-2"};
+constexpr NumberRange exitance{
+    .lo = 0.0, .hi = 1e15, .cure = "give the flux that leaves the upper side in W m-2, or in the band's unit"};
 
 // Reads one number for all bands, or a table with exactly one number per band; returns nothing if the key is absent.
 std::optional<std::vector<double>> read_by_band(const TomlTable& table, std::string_view key,
@@ -72,14 +73,21 @@ std::vector<FaceOptics> read_face(const TomlTable& table, std::vector<Waveband>&
   return face;
 }
 
+std::vector<double> read_emission_w_m2(const TomlTable& table, const std::vector<Waveband>& bands,
+                                       const std::vector<double>& per_w_m2) {
+  std::vector<double> emission = read_by_band(table, "emission", bands, exitance).value_or(std::vector<double>());
+  for (std::size_t band = 0; band < emission.size(); ++band) emission[band] /= per_w_m2[band];
+  return emission;
+}
+
 SurfaceOptics read_surface(const TomlTable& table, const std::string& name, std::vector<Waveband>& bands,
-                           const SpectraAccess& spectra) {
+                           const std::vector<double>& per_w_m2, const SpectraAccess& spectra) {
   table.allow({"reflectance", "transmittance", "spectrum", "rgb", "upper", "lower", "emission", "role"});
   SurfaceOptics optics;
   optics.name = name;
   optics.rgb = read_rgb(table, optics.rgb);
   optics.role = read_role(table);
-  optics.emission_w_m2 = read_by_band(table, "emission", bands, exitance).value_or(std::vector<double>());
+  optics.emission_w_m2 = read_emission_w_m2(table, bands, per_w_m2);
   if (!table.has("upper") && !table.has("lower")) {
     optics.upper = read_face(table, bands, spectra);
     optics.lower = optics.upper;
@@ -156,7 +164,8 @@ std::optional<Soil> read_soil(const TomlTable& root, std::vector<Waveband>& band
   return soil;
 }
 
-OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const SpectraAccess& spectra) {
+OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const std::vector<double>& per_w_m2,
+                         const SpectraAccess& spectra) {
   if (root.has("optics") && !root.is_table("optics")) refuse_list_of_optics(root);
   const auto all = root.table("optics");
   if (!all) return {};
@@ -175,7 +184,7 @@ OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, co
     }
     if (name.empty()) all->refuse(name, "a name must not be empty", "give the name of a mesh's material");
     const TomlTable table = *all->table(name);
-    optics.emplace(name, OpticsInput{read_surface(table, name, bands, spectra), table.place()});
+    optics.emplace(name, OpticsInput{read_surface(table, name, bands, per_w_m2, spectra), table.place()});
   }
   return optics;
 }

@@ -27,7 +27,9 @@ struct OpticsInput {
 };
 using OpticsByName = std::map<std::string, OpticsInput>;
 
-// Returns the entries of [optics] by name, with values for each band.
-[[nodiscard]] OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const SpectraAccess& spectra);
+// Returns the entries of [optics] by name, with values for each band. `emission` is divided by per_w_m2 [waveband], the unit of its
+// band in the file.
+[[nodiscard]] OpticsByName read_optics(const TomlTable& root, std::vector<Waveband>& bands, const std::vector<double>& per_w_m2,
+                                       const SpectraAccess& spectra);
 
 }  // namespace sunfleck

@@ -136,6 +136,19 @@ TEST(SceneEditor, WritesIrradiancesInsteadOfOtherLight) {
   EXPECT_EQ(after.model.bands[1].diffuse_w_m2, 30.0);
 }
 
+// The bands lose their unit, which `emission` had.
+TEST(SceneEditor, KeepsWhatLampsEmitInPhotons) {
+  for (const std::string emission : {"100", "{ PAR = 50.5, NIR = 3 }"}) {
+    const std::string text = scene_head + two_bands + replaced(scene_rest, "rgb", "emission = " + emission + "\nrgb");
+    const auto lamp = [](const Scene& scene) { return scene.model.optics.front().emission_w_m2; };
+    SceneEdits edits;
+    edits.irradiances = read(text).model.bands;
+    const std::string after = edited_scene_text("before.toml", text, band_names, edits);
+    EXPECT_EQ(after.find("umol_m2_s"), std::string::npos);
+    EXPECT_EQ(lamp(read(after)), lamp(read(text))) << after;
+  }
+}
+
 TEST(SceneEditor, ListsBandsOfEqualWidth) {
   const std::string text = "bands = { from = 400, to = 600, step = 100, direct = 200.0 }\n" + scene_head + scene_rest;
   SceneEdits edits;

@@ -394,6 +394,27 @@ TEST_F(SceneReader, SplitsTheOrgansOfAMesh) {
   EXPECT_NE(message->find("geometry.split"), std::string::npos) << *message;
 }
 
+TEST_F(SceneReader, EmissionIsInTheUnitOfItsBand) {
+  const auto emission_w_m2 = [&](const std::string& text) {
+    const std::vector<SurfaceOptics> optics = read(text).model.optics;
+    return std::find_if(optics.begin(), optics.end(), [](const SurfaceOptics& each) { return each.name == "leaf"; })
+        ->emission_w_m2;
+  };
+  const std::string of_leaf = "transmittance = { PAR = 0.06, NIR_1 = 0.55 }\n";
+  const std::string band = "[[band]]\nname    = \"PAR\"\ndirect  = 350.0\ndiffuse = 0.0\n";
+  for (const auto& [given, par, nir] : {std::tuple{"100", 100.0, 100.0}, {"{ NIR_1 = 5, PAR = 91.4 }", 91.4, 5.0}}) {
+    const std::string lamp = replaced(good_scene, of_leaf, of_leaf + "role = \"lamp\"\nemission = " + given + "\n");
+    EXPECT_EQ(emission_w_m2(lamp), (std::vector<double>{par, nir}));
+    const std::string photons = band + "unit = \"umol_m2_s\"\n";
+    const std::vector<double> expected = {par / 4.57, nir};
+    EXPECT_EQ(emission_w_m2(replaced(lamp, band, photons)), expected);
+    EXPECT_EQ(emission_w_m2(replaced(lamp, band, photons + "umol_per_joule = 5\n")), (std::vector<double>{par / 5.0, nir}));
+    const std::string second = "[[band]]\nname          = \"NIR_1\"\ndirect_normal = 400\n";
+    const std::string without = replaced(replaced(lamp, band, ""), second, "");
+    EXPECT_EQ(emission_w_m2(without + photons + second), expected) << "bands after optics";
+  }
+}
+
 TEST_F(SceneReader, WarnsOfUnusedOptics) {
   const Scene scene = read(good_scene + "[optics.ear]\nreflectance = 0.2\n");
   ASSERT_EQ(scene.warnings.size(), 1U);
