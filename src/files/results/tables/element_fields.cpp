@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -67,6 +69,15 @@ std::vector<LightColumn> columns_of(const RadiationResult& result) {
   columns.insert(columns.end(), {LightColumn::indirect_upper, LightColumn::indirect_lower, LightColumn::total,
                                  LightColumn::absorbed, LightColumn::absorbed_error});
   return columns;
+}
+
+// Returns whether the errors of some triangles are unknown, as they are where the counts themselves are shown.
+bool lacks_errors(const ElementFields& fields) {
+  const auto lacks = [](const std::vector<LightValues>& band) {
+    const std::vector<double>& errors = band.back().values;
+    return std::any_of(errors.begin(), errors.end(), [](double error) { return std::isnan(error); });
+  };
+  return std::any_of(fields.light.begin(), fields.light.end(), lacks);
 }
 
 }  // namespace
@@ -137,8 +148,8 @@ Table triangles_table(const ElementFields& fields) {
   Table table{"Triangles, in the order of the files",
               fmt::format("area_m2: m2, one-sided; x, y, z: m, centroid after wrapping ({}); direct, sky (unscattered, "
                           "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: "
-                          "half-width of the confidence interval, empty below 20 hits",
-                          axes_text(fields.axes)),
+                          "half-width of the confidence interval{}",
+                          axes_text(fields.axes), lacks_errors(fields) ? ", empty below 20 hits" : ""),
               {},
               {fields.size()},
               {}};

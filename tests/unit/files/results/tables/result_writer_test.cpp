@@ -148,6 +148,14 @@ TEST(ResultWriter, TrianglesWithoutIntervals) {
   EXPECT_EQ(table.cell(0, "B_absorbed_error"), "");
 }
 
+TEST(ResultWriter, TheHeadOfTrianglesSaysWhetherErrorsAreMissing) {
+  RadiationResult result = small_result();
+  const auto text = [&] { return triangles_csv(small_record(), small_model(), result); };
+  EXPECT_NE(text().find("half-width of the confidence interval, empty below 20 hits\n"), std::string::npos);
+  result.element_error = {0.5, 0.25, 0.75, 0.0};
+  EXPECT_NE(text().find("half-width of the confidence interval\n"), std::string::npos) << text();
+}
+
 TEST(ResultWriter, SummaryHasNullForUnknowns) {
   RunRecord record = small_record();
   record.complete = false;
