@@ -239,7 +239,7 @@ void add_validate(CLI::App& app, ValidateOptions& options) {
   add_version(validate);
   validate.add_option("-o,--output", options.output, "Result folder (default: results/validate)")->check(not_empty());
   listed(validate.add_option("--cases", options.cases,
-                             "Run only cases whose names contain one of these words, separated by commas"))
+                             "Run only groups of cases whose names contain one of these words, separated by commas"))
       ->check(not_empty());
   validate.add_flag("--json", options.json, "Print only the table, as JSON, on standard output");
   add_device(validate, options);

@@ -125,7 +125,13 @@ TEST(HostileFiles, ZeroBytesAndUtf16AreNoText) {
     SCOPED_TRACE(reader.name);
     std::string wide = "\xff\xfe";
     for (const char c : reader.good) wide += std::string{c, '\0'};
-    expect_refusal([&] { reader.read(folder.write(reader.name, wide)); }, "");
+    const std::string zeros = reader.good.substr(0, reader.good.size() / 2) + std::string(3, '\0') + reader.good;
+    expect_refusal([&] { reader.read(folder.write(reader.name, zeros)); }, "");
+    const bool is_xml = reader.good.starts_with('<');  // XML says in which encoding it is
+    if (is_xml)
+      EXPECT_NO_THROW(reader.read(folder.write(reader.name, wide)));
+    else
+      expect_refusal([&] { reader.read(folder.write(reader.name, wide)); }, "");
   }
 }
 
