@@ -132,8 +132,9 @@ void print_instances(const ordered_json& info) {
   if (instances["copies"] == 0) {
     fmt::print("tree: each triangle has its own place (copies share triangles with instances = true, or where it pays)\n");
   } else {
-    fmt::print("tree: {} triangles; {} copies share those of {} meshes\n", instances["triangles"].get<std::size_t>(),
-               instances["copies"].get<std::size_t>(), instances["meshes"].get<std::size_t>());
+    const auto meshes = instances["meshes"].get<std::size_t>();
+    fmt::print("tree: {} triangles; {} copies share those of {} {}\n", instances["triangles"].get<std::size_t>(),
+               instances["copies"].get<std::size_t>(), meshes, meshes == 1 ? "mesh" : "meshes");
   }
 }
 
