@@ -13,7 +13,6 @@ namespace {
 struct NamedRole {
   std::optional<Role> role;
   bool is_given = false;
-  bool is_shining_lamp = false;
 };
 
 // Names the roles of surfaces; remembers what the optics' names suggest.
@@ -32,10 +31,10 @@ class RoleNames {
     const std::optional<Role> by_organ = role_from_name(organ.name);
     const std::optional<Role> by_optics = of_optics_[surface.optics];
     if (by_organ == Role::soil || by_optics == Role::soil) return {Role::soil};
-    const bool shines = optics != nullptr && optics->shines();
-    const std::optional<Role> by_name = by_organ ? by_organ : by_optics;
-    if (shines && by_name.value_or(Role::lamp) == Role::lamp) return {Role::lamp, false, true};
-    return {by_name};
+    if (by_organ) return {by_organ};
+    if (by_optics) return {by_optics};
+    if (optics != nullptr && optics->shines()) return {Role::lamp};
+    return {};
   }
 
  private:
@@ -50,16 +49,15 @@ void set_roles(std::vector<Surface>& surfaces, const Canopy& canopy, std::span<c
   const RoleNames names(canopy, optics);
   std::vector<NamedRole> named;
   std::set<std::uint32_t> plants_with_leaves;
-  bool any_plant = false, any_light = false;
+  bool any_plant = false;
   for (const Surface& surface : surfaces) {
     const NamedRole& last = named.emplace_back(names.of(surface));
     any_plant = any_plant || !last.role || is_vegetation(*last.role);
-    any_light = any_light || last.is_shining_lamp;
     if (last.role == Role::leaf) plants_with_leaves.insert(canopy.organs[surface.organ].plant);
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const bool has_leaves = plants_with_leaves.contains(canopy.organs[surfaces[s].organ].plant);
-    const bool is_plant = !named[s].role || (!any_plant && !any_light && !named[s].is_given && named[s].role != Role::soil);
+    const bool is_plant = !named[s].role || (!any_plant && !named[s].is_given && named[s].role != Role::soil);
     surfaces[s].role = is_plant ? (has_leaves ? Role::stem : Role::leaf) : *named[s].role;
   }
 }

@@ -13,7 +13,7 @@ namespace sunfleck {
 // Its role is the one given to its organ or to its optics, in this order. Otherwise it is soil if the organ or the optics have
 // such a name, and else what the organ's name suggests, or the name of the optics, or a lamp if the optics emit light. A
 // surface that nothing of this applies to is a leaf, or a stem if its plant has leaves. Where a canopy would consist of
-// structures and lamps by their names alone, these count as leaves, unless lamps shine: there is nothing else to look at.
+// structures and lamps by their names alone, these count as leaves: there is nothing else to look at.
 struct Surface {
   std::uint32_t organ = 0;
   std::uint16_t optics = 0;

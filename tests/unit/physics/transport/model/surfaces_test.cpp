@@ -79,17 +79,6 @@ TEST(Surfaces, OfNothingButStructuresCountAsLeavesUnlessTheirRoleIsGiven) {
   EXPECT_EQ(roles_of(model_of({{{1, "wall"}, "white"}, {{2, "maize"}, "green"}})), (Roles{Role::structure, Role::leaf}));
 }
 
-// A chamber without plants keeps its walls and lamps.
-TEST(Surfaces, OfAChamberWhoseLampsShineAreStructures) {
-  for (const char* name : {"lamp", "thing"}) {
-    RadiationModel model = model_of({{{1, "wall"}, "white"}, {{1, name}, "bulb"}});
-    EXPECT_EQ(roles_of(model),
-              name == std::string("lamp") ? (Roles{Role::leaf, Role::leaf}) : (Roles{Role::structure, Role::leaf}));
-    model.optics[1].emission_w_m2 = {1.0};
-    EXPECT_EQ(roles_of(model), (Roles{Role::structure, Role::lamp})) << name;
-  }
-}
-
 TEST(Surfaces, OfStructuresShareNoOpticsWithVegetation) {
   RadiationModel model =
       model_of({{{1, "leaf"}, "white"}, {{1, "wall"}, "white"}, {{1, "pot"}, "white"}, {{1, "wall"}, "grey"}});
