@@ -1,6 +1,7 @@
 #include "files/scene/plausibility.h"
 
 #include "base/file.h"
+#include "base/text.h"
 #include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -116,7 +117,7 @@ void warn_of_plantless_vegetation(const Canopy& canopy, const Surfaces& surfaces
   warnings.push_back(fmt::format(
       "{}: {} of leaves, stems and fruits, e.g. of the organ \"{}\", {} to no plant, because the number of the plant is 0, and "
       "{} in no row of plants.csv; number plants from 1",
-      file, count == 1 ? "1 triangle" : fmt::format("{} triangles", count), printable(canopy.organs[example->organ].name),
+      file, counted(static_cast<std::size_t>(count), "triangle"), printable(canopy.organs[example->organ].name),
       count == 1 ? "belongs" : "belong", count == 1 ? "is" : "are"));
 }
 

@@ -207,12 +207,8 @@ class PlyReader {
     glm::dvec3 position(0.0);
     PlyNames names;
     for (const PlyProperty& property : element.properties) {
-      if (property.list_size) {
-        skip_list(property);
-        continue;
-      }
-      if (property.use == PlyUse::none) {
-        body_.skip(property.type);
+      if (property.list_size || property.use == PlyUse::none) {
+        skip(property);
         continue;
       }
       const double value = body_.next(property.type);
@@ -233,10 +229,8 @@ class PlyReader {
     for (const PlyProperty& property : element.properties) {
       if (property.use == PlyUse::corners)
         read_corners(property);
-      else if (property.list_size)
-        skip_list(property);
-      else if (property.use == PlyUse::none)
-        body_.skip(property.type);
+      else if (property.list_size || property.use == PlyUse::none)
+        skip(property);
       else
         names.read(property, body_.next(property.type));
     }
@@ -291,8 +285,8 @@ class PlyReader {
     return static_cast<std::size_t>(size);
   }
 
-  void skip_list(const PlyProperty& property) {
-    for (std::size_t left = list_size(property); left > 0; --left) body_.skip(property.type);
+  void skip(const PlyProperty& property) {
+    for (std::size_t left = property.list_size ? list_size(property) : 1; left > 0; --left) body_.skip(property.type);
   }
 
   void read_corners(const PlyProperty& property) {

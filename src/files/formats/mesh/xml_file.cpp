@@ -49,28 +49,26 @@ pugi::xml_node XmlFile::root(std::string_view name) const {
   return element;
 }
 
-std::vector<double> XmlFile::numbers(pugi::xml_node element) const {
-  std::vector<double> values;
+template <class Value>
+std::vector<Value> XmlFile::values(pugi::xml_node element, std::optional<Value> (*parse)(std::string_view),
+                                   std::string_view why) const {
+  std::vector<Value> values;
   const std::string whole = text_of(element);
   std::string_view text = whole;
   for (std::string_view word = next_xml_word(text); !word.empty(); word = next_xml_word(text)) {
-    const std::optional<double> value = parse_number(word);
-    if (!value) refuse_at(element, fmt::format("<{}>: {}", element.name(), in_quotes(word)), "not a finite number");
+    const std::optional<Value> value = parse(word);
+    if (!value) refuse_at(element, fmt::format("<{}>: {}", element.name(), in_quotes(word)), why);
     values.push_back(*value);
   }
   return values;
 }
 
+std::vector<double> XmlFile::numbers(pugi::xml_node element) const {
+  return values<double>(element, parse_number, "not a finite number");
+}
+
 std::vector<std::int64_t> XmlFile::integers(pugi::xml_node element) const {
-  std::vector<std::int64_t> values;
-  const std::string whole = text_of(element);
-  std::string_view text = whole;
-  for (std::string_view word = next_xml_word(text); !word.empty(); word = next_xml_word(text)) {
-    const std::optional<std::int64_t> value = parse_integer(word);
-    if (!value) refuse_at(element, fmt::format("<{}>: {}", element.name(), in_quotes(word)), "not a whole number");
-    values.push_back(*value);
-  }
-  return values;
+  return values<std::int64_t>(element, parse_integer, "not a whole number");
 }
 
 std::vector<double> XmlFile::numbers(pugi::xml_node element, std::size_t count) const {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <pugixml.hpp>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,8 @@ namespace sunfleck {
 
 class XmlFile {
  public:
-  // Parses the bytes: UTF-8, or else what the file declares of UTF-16, UTF-32 and Latin-1. Entities of a document type are not expanded and nothing else is opened. Throws
-  // Error (input) if they are no well-formed XML. `source` must outlive the object.
+  // Parses the bytes: UTF-8, or else what the file declares of UTF-16, UTF-32 and Latin-1. Entities of a document type are not
+  // expanded and nothing else is opened. Throws Error (input) if they are no well-formed XML. `source` must outlive the object.
   explicit XmlFile(const MeshSource& source);
 
   // Returns the outermost element; refuses the file if it has another name.
@@ -31,6 +32,9 @@ class XmlFile {
                               std::string_view cure = "export the file again") const;
 
  private:
+  template <class Value>
+  [[nodiscard]] std::vector<Value> values(pugi::xml_node element, std::optional<Value> (*parse)(std::string_view),
+                                          std::string_view why) const;
   [[nodiscard]] std::size_t line_at(std::ptrdiff_t offset) const;
 
   const MeshSource& source_;

@@ -60,7 +60,8 @@ struct RunSums {
   // replicate.
   [[nodiscard]] double unseen(double event, double confidence) const;
 
-  // Returns the conversion's events, where packets carry no more than what waited for them and what may have escaped all replicates.
+  // Returns the conversion's events, where packets carry no more than what waited for them and what may have escaped all
+  // replicates.
   [[nodiscard]] LightEvents events(double confidence) const;
 
   // Returns the unshot flux of a replicate, W m-2 of ground.

@@ -124,7 +124,8 @@ std::optional<Work> WorkPlanner::choose_by_pilots(const RunPilots& run_pilots) {
     fit_to_rays(pilot, pilots->rays_each, rays, packets);
     const Work larger = with_enough_rays({chooses_rays ? ray_forecast.next_pilot(pilot.rays, rays.chosen) : pilot.rays,
                                           packet_forecast.next_pilot(pilot.packets, packets.chosen)});
-    if (fitted_to_time_ || (larger.rays == pilot.rays && larger.packets == pilot.packets)) return balanced(rays, packets);
+    if (fitted_to_time_ || (larger.rays == pilot.rays && larger.packets == pilot.packets))
+      return with_enough_rays(balanced(rays, packets));
     pilot = larger;
   }
 }
@@ -159,11 +160,11 @@ void WorkPlanner::fit_to_rays(const Work& pilot, double rays_of_pilot, Part& ray
 Work WorkPlanner::balanced(const Part& rays, const Part& packets) const {
   Work work{rays.chosen, packets.chosen};
   const bool held_back = !fixed() && packets.chosen > 0.0 && packets.chosen == most_packets(work);
-  if (!held_back || !has_beam_) return with_enough_rays(work);
+  if (!held_back || !has_beam_) return work;
   const double fewer = std::pow(packets.wanted / packets.chosen, -packet_slope / ray_slope);
   work.rays = std::max(first_pilot.rays, std::min(1.0, spare_of_rays * fewer) * work.rays);
   if (for_organs()) work.rays = std::max(work.rays, std::min(rays.chosen, rays_per_packet_for_organs * work.packets));
-  return with_enough_rays(work);
+  return work;
 }
 
 Work WorkPlanner::with_enough_rays(Work work) const {
