@@ -220,6 +220,29 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
   EXPECT_NEAR(stated / real, 1.0, 0.28);
 }
 
+// A packet that starts where only one of the lights shines may carry twice the part of that light's flux that it would carry alone, so
+// that what nothing reached in either light may have missed twice as much.
+TEST(SharedLightErrors, OfWhatNothingReachesAllowForPacketsOfOneLight) {
+  MeshMaker maker;
+  maker.organ("leaf", 1, 1);
+  maker.level(0.2, 0.8, 0.2, 0.8, 0.5);
+  maker.organ("leaf", 1, 2);
+  maker.level(0.4, 0.6, 0.4, 0.6, 0.2);  // in the shade of the upper leaf, which transmits nothing
+  RadiationModel model = paper_model(maker.mesh(), unit_plot, sun_at(90.0, 0.0));
+  for (SurfaceOptics& optics : model.optics) {
+    for (FaceOptics& face : optics.upper) face.transmittance = 0.0;
+  }
+  model.soil.reset();
+  const Prepared prepared(model);
+  const SolveSettings settings = fixed_scatter(model, {.rays = 2e4, .packets = 500, .replicates = 8});
+  const Estimate alone = simulate(model, prepared, settings).organs.at(1).indirect.at(0);
+  const Estimate together = simulate_together({model, model}, prepared, settings).at(1).organs.at(1).indirect.at(0);
+  EXPECT_EQ(alone.value, 0.0);
+  EXPECT_EQ(together.value, 0.0);
+  EXPECT_GT(alone.half_width, 0.0);
+  EXPECT_NEAR(together.half_width, 2.0 * alone.half_width, 0.01 * alone.half_width);
+}
+
 // All lights keep their books, and one light alone is simulated as ever.
 TEST(SharedLightBooks, CloseInEveryColumn) {
   const std::vector<RadiationModel> moments = day_of(flat_leaves(), Source::both, 5);

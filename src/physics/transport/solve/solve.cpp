@@ -131,7 +131,7 @@ class Solver {
     std::vector<Incidence> incidences;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       Incidence& incidence = incidences.emplace_back(maker_.incidence(first.rays_of(k), first.aimed, k));
-      incidence.packets = work.packets;
+      incidence.packets = work.packets / static_cast<double>(lights_.size());
       incidence.sky_rays = first.sky_rays;
     }
     series_ = std::make_unique<Series>(maker_, incidences, settings_, wanted_sums_);
