@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "base/check.h"
@@ -169,6 +170,13 @@ UtcTime plus_seconds(const UtcTime& time, double seconds) {
   later.minute = static_cast<int>(rest / 60.0);
   later.second = rest - later.minute * 60.0;
   return later;
+}
+
+std::string local_time_text(const UtcTime& time, int offset_minutes) {
+  const UtcTime local = plus_seconds(time, 60.0 * offset_minutes);
+  const int off = std::abs(offset_minutes);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", local.year, local.month, local.day, local.hour,
+                     local.minute, static_cast<int>(local.second), offset_minutes < 0 ? '-' : '+', off / 60, off % 60);
 }
 
 double seconds_between(const UtcTime& origin, const UtcTime& time) {

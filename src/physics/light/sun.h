@@ -4,6 +4,7 @@
 #include <compare>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 
 namespace sunfleck {
 
@@ -61,6 +62,9 @@ struct Air {
 
 // Returns the time `seconds` later (earlier if negative), in days of 86400 s. Throws Error (input) for invalid times.
 [[nodiscard]] UtcTime plus_seconds(const UtcTime& time, double seconds);
+
+// Returns local time with its offset from UTC, such as 2002-08-08T05:00:00+08:00.
+[[nodiscard]] std::string local_time_text(const UtcTime& time, int offset_minutes);
 
 // Returns time - origin in seconds, in days of 86400 s.
 [[nodiscard]] double seconds_between(const UtcTime& origin, const UtcTime& time);

@@ -20,9 +20,9 @@ constexpr double spitters_solar_constant_w_m2 = 1370.0;  // Spitters et al. 1986
 constexpr double solar_constant_w_m2 = 1367.0;           // World Radiometric Centre, as in Duffie and Beckman 1980
 constexpr double sea_level_pressure_hpa = 1013.25;       // ISO 2533
 
-std::string text_of(const UtcTime& time) {
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02.0f} UTC", time.year, time.month, time.day, time.hour, time.minute,
-                     std::floor(time.second));
+// Returns the time as the weather's file states it.
+std::string text_of(const Weather& weather, const UtcTime& time) {
+  return local_time_text(time, weather.zone_minutes);
 }
 
 // Returns the clearness index, the ratio of global irradiance to that outside the atmosphere, for a sun above the horizon.
@@ -40,7 +40,7 @@ UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   UtcTime local = plus_seconds(time, 60.0 * weather.zone_minutes);
   const UtcTime first = plus_seconds(weather.intervals.front().start, 60.0 * weather.zone_minutes);
   if (local.month == 2 && local.day == 29 && !std::chrono::year(first.year).is_leap()) {
-    throw_input("weather at " + text_of(time), fmt::format("the year of {} has no 29 February", weather.name),
+    throw_input("weather at " + text_of(weather, time), fmt::format("the year of {} has no 29 February", weather.name),
                 "choose another date, or a file with one");
   }
   local.year = first.year;
@@ -54,9 +54,10 @@ UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
     const UtcTime end = plus_seconds(last.start, last.length_s);
     const bool within = time >= weather.intervals.front().start && time < end;
     why = within ? fmt::format("{} has a gap there", weather.name)
-                 : fmt::format("{} covers {} to {}", weather.name, text_of(weather.intervals.front().start), text_of(end));
+                 : fmt::format("{} covers {} to {}", weather.name, text_of(weather, weather.intervals.front().start),
+                               text_of(weather, end));
   }
-  throw_input("weather at " + text_of(time), why, "choose a time that it covers, or add what is missing");
+  throw_input("weather at " + text_of(weather, time), why, "choose a time that it covers, or add what is missing");
 }
 
 // Returns the time in the file that stands for a time.
@@ -184,7 +185,7 @@ Broadband weather_at(const Weather& weather, const std::optional<UtcTime>& time,
   const WeatherInterval& given = weather.source == Weather::Source::moment ? weather.moment : interval_at(weather, *time);
   if (const auto measured = measured_in(given, weather.split, sun, day)) return *measured;
   EXPECT(weather.source == Weather::Source::intervals, ==, true);
-  throw_input(fmt::format("{}:{}: weather at {}", weather.name, given.line, text_of(*time)),
+  throw_input(fmt::format("{}:{}: weather at {}", weather.name, given.line, text_of(weather, *time)),
               "irradiance is marked as missing there", "choose another time, or fill the value in");
 }
 

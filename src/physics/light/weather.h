@@ -88,10 +88,10 @@ struct Weather {
   std::vector<WeatherInterval> intervals;  // for Source::intervals
   std::string name;                        // name of their file, for messages
 
-  // A typical year: the intervals cover one whole calendar year and apply to every year. `zone_minutes` is the offset from
-  // UTC of its local standard time, which decides where 29 February falls.
+  int zone_minutes = 0;                    // local time of the file minus UTC
+
+  // A typical year: the intervals cover one whole calendar year of local time and apply to every year.
   bool every_year = false;
-  int zone_minutes = 0;
 
   SplitRule split = SplitRule::spitters;
   ClearAir air;  // for Source::clear_sky

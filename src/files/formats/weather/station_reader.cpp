@@ -57,6 +57,7 @@ class StationReader {
     WeatherFile result;
     result.weather.source = Weather::Source::intervals;
     result.weather.intervals = std::move(intervals_);
+    result.weather.zone_minutes = zone_minutes_.value_or(0);
     return result;
   }
 
@@ -177,7 +178,7 @@ class StationReader {
     return (west ? -1 : 1) * (60 * *hours + minutes);
   }
 
-  UtcTime read_time(std::string_view cell) const {
+  UtcTime read_time(std::string_view cell) {
     const std::string shown = fmt::format("time {}", in_quotes(cell));
     std::string_view rest = cell;
     const auto year = take_digits(rest, 4);
@@ -199,6 +200,7 @@ class StationReader {
       refuse_line(file_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
                   "correct the year");
     }
+    if (!zone_minutes_) zone_minutes_ = *offset;
     return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
   }
 
@@ -223,6 +225,7 @@ class StationReader {
   std::vector<std::string_view> cells_;
   std::size_t line_ = 0;
   std::vector<WeatherInterval> intervals_;
+  std::optional<int> zone_minutes_;  // of the first row
 };
 
 }  // namespace

@@ -5,12 +5,9 @@
 #include "physics/transport/model/plant_areas.h"
 #include "physics/transport/model/surfaces.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -174,13 +171,6 @@ std::size_t sensor_points(const RadiationModel& model) {
   std::size_t points = 0;
   for (const Sensor& sensor : model.sensors) points += sensor.points_m.size();
   return points;
-}
-
-std::string local_time_text(const UtcTime& time, int offset_minutes) {
-  const UtcTime local = plus_seconds(time, 60.0 * offset_minutes);
-  const int off = std::abs(offset_minutes);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", local.year, local.month, local.day, local.hour,
-                     local.minute, static_cast<int>(local.second), offset_minutes < 0 ? '-' : '+', off / 60, off % 60);
 }
 
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {

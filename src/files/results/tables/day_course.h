@@ -45,9 +45,6 @@ struct StepRange {
 // Returns the course of a single date, so that its tables can be made from the light of its steps alone.
 [[nodiscard]] DayCourse course_of(const DayCourse& course, std::size_t date);
 
-// Returns e.g. 2002-08-08T05:00:00+08:00.
-[[nodiscard]] std::string local_time_text(const UtcTime& time, int offset_minutes);
-
 // Fluxes of a step in one band, W m-2 of ground.
 struct StepBand {
   Estimate incident, absorbed_vegetation, absorbed_structure, absorbed_soil, reflected, transmitted;

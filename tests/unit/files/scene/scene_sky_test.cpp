@@ -218,7 +218,7 @@ TEST_F(SceneSky, RefusesWeatherThatDoesNotHoldTheMoment) {
   const auto message = message_of([&] { static_cast<void>(read(late)); });
   ASSERT_TRUE(message);
   expect_three_parts(*message);
-  EXPECT_TRUE(message->starts_with("weather at 2002-08-08 02:30:00 UTC (station.csv covers 2002-08-08 02:00:00 UTC to "))
+  EXPECT_TRUE(message->starts_with("weather at 2002-08-08T10:30:00+08:00 (station.csv covers 2002-08-08T10:00:00+08:00 to "))
       << *message;
   // For a day the scene's own moment does not matter.
   EXPECT_FALSE(message_of([&] { static_cast<void>(read(late, {.purpose = ScenePurpose::day})); }));

@@ -244,7 +244,7 @@ std::string refusal(const Weather& weather, const UtcTime& time) {
 TEST(Weather, TimesOutsideAreRefusedByName) {
   Weather weather = hourly(5);
   EXPECT_EQ(refusal(weather, {2002, 8, 7, 21, 59, 59.0}),
-            "weather at 2002-08-07 21:59:59 UTC (station.csv covers 2002-08-07 22:00:00 UTC to 2002-08-08 03:00:00 UTC); "
+            "weather at 2002-08-07T21:59:59+00:00 (station.csv covers 2002-08-07T22:00:00+00:00 to 2002-08-08T03:00:00+00:00); "
             "choose a time that it covers, or add what is missing");
   EXPECT_NE(refusal(weather, {2002, 8, 8, 3, 0, 0.0}).find("covers"), std::string::npos);
   weather.intervals.erase(weather.intervals.begin() + 2);
@@ -253,7 +253,7 @@ TEST(Weather, TimesOutsideAreRefusedByName) {
   weather.intervals[1].line = 7;
   EXPECT_EQ(
       refusal(weather, {2002, 8, 7, 23, 30, 0.0}),
-      "station.csv:7: weather at 2002-08-07 23:30:00 UTC (irradiance is marked as missing there); choose another time, or "
+      "station.csv:7: weather at 2002-08-07T23:30:00+00:00 (irradiance is marked as missing there); choose another time, or "
       "fill the value in");
 }
 
