@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -17,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-constexpr int bar_cells = 16;
+constexpr std::array bar_widths = {16, 8, 0};
 constexpr const char* clear_line = "\r\x1b[K";  // to the first column, erase to the end (ECMA-48)
 
 bool on_terminal() {
@@ -105,8 +106,9 @@ void ProgressLine::update(const State& state) {
 }
 
 void ProgressLine::draw_bar(steady_clock::time_point now) {
-  std::string text = progress_text(task_, state_, std::chrono::duration<double>(now - start_).count(), bar_cells);
-  text.resize(std::min(text.size(), terminal_columns() - 1));  // a wrapped line could not be redrawn
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const std::string text =
+      fitted_progress_text(task_, state_, elapsed_s, terminal_columns() - 1);  // a wrapped line could not be redrawn
   std::fprintf(stderr, "%s%s", clear_line, text.c_str());
   std::fflush(stderr);
 }
@@ -124,6 +126,18 @@ std::string progress_text(std::string_view task, const ProgressLine::State& stat
     const double left_s = state.seconds_left.value_or(elapsed_s * (1.0 - fraction) / fraction);
     text += fmt::format(", {} left", duration_text(left_s));
   }
+  return text;
+}
+
+std::string fitted_progress_text(std::string_view task, ProgressLine::State state, double elapsed_s, std::size_t columns) {
+  std::string text;
+  for (const int bar_width : bar_widths) {
+    text = progress_text(task, state, elapsed_s, bar_width);
+    if (text.size() <= columns) return text;
+  }
+  state.relative_error.reset();
+  text = progress_text(task, state, elapsed_s, 0);
+  if (text.size() > columns) text.resize(columns);
   return text;
 }
 

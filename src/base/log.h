@@ -2,6 +2,7 @@
 // Messages of the running program: lines on standard error, and a progress line.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,5 +53,9 @@ class ProgressLine {
 // out below one percent and at the end; the error is left out if it is unknown.
 [[nodiscard]] std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s,
                                         int bar_width);
+
+// Returns that text in as many columns at most: the bar gets shorter, then is left out, then the error is; only what remains is cut.
+[[nodiscard]] std::string fitted_progress_text(std::string_view task, ProgressLine::State state, double elapsed_s,
+                                               std::size_t columns);
 
 }  // namespace sunfleck

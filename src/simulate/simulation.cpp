@@ -199,7 +199,7 @@ RunRecord Simulation::record(const SolveSettings& settings) const {
   record.passes = settings.passes;
   record.max_rays = settings.max_rays;
   record.max_seconds = settings.max_seconds;
-  record.memory_bytes = settings.memory_bytes;
+  if (settings.memory_bytes) record.memory_bytes = static_cast<std::uint64_t>(*settings.memory_bytes);
   record.threads = threads_;
   record.device = device();
   record.seconds.bvh = tracing_->build_s;

@@ -46,7 +46,7 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
                  fmt::format("rows * per_row gives {} plants, but at most {} are allowed", plants_so_far, most_plants),
                  "use fewer; a periodic plot repeats them without end");
   }
-  const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres"});
+  const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres, as [0.6, 0.6]"});
   if (spacing_m) {
     stand.spacing_in_row_m = (*spacing_m)[0];
     stand.spacing_between_rows_m = (*spacing_m)[1];

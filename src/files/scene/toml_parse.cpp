@@ -176,6 +176,7 @@ constexpr const char* cure_of_backslash = "write / for each backslash, or put th
 // Patterns in the parser's description.
 constexpr Cure cures_by_description[] = {
     {"utf-8", "save the file as UTF-8"},
+    {"array-of-tables", "write each of them in double brackets, [[NAME]]"},
     {"redefine", "keep one of the two"},
     {"parsing time", "write the time as hh:mm:ss, with seconds"},
     {"end-of-file", "complete it; the file may be truncated"},

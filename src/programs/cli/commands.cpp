@@ -29,6 +29,15 @@ int help_with_run(const RunOptions& options, Ranks& ranks) {
   return served ? exit_done : exit_failed;
 }
 
+// Returns what an interrupted run did not come to, such as ", without sensors and pictures"; empty if it lacks neither.
+std::string lacking_text(const SimulatedScene& simulated) {
+  const bool sensors = !simulated.scene->model.sensors.empty() && simulated.result.sensors.empty();
+  const bool pictures = simulated.record.pictures_interrupted;
+  if (!sensors && !pictures) return "";
+  return fmt::format(", without {}{}{}", sensors ? "sensors" : "", sensors && pictures ? " and " : "",
+                     pictures ? "pictures" : "");
+}
+
 }  // namespace
 
 int run(const RunOptions& asked) {
@@ -69,7 +78,7 @@ int run(const RunOptions& asked) {
   simulation.check_validation();
 
   const std::string cure = checkpoint.holds_state() ? "; --resume continues the run" : "";
-  warn_if_short(simulated, settings, "the results are kept and marked incomplete" + cure);
+  warn_if_short(simulated, settings, "the results are kept and marked incomplete" + lacking_text(simulated) + cure);
   warn_of_coarse_triangles(simulated, options.exports);
   print_result(folder, options, simulated);
   if (simulated.record.complete && unwritten.names().empty()) checkpoint.finish();

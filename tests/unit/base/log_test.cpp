@@ -43,6 +43,21 @@ TEST(progress_text, stands_odd_fractions) {
   EXPECT_EQ(progress_text("d", {.fraction = std::numeric_limits<double>::quiet_NaN()}, 1.0, 2), "d [..] 0 %, 0.0 M rays");
 }
 
+TEST(progress_text, fits_into_the_columns_of_a_terminal_without_cutting_a_number) {
+  const ProgressLine::State state{.rays = 4'600'000,
+                                  .fraction = 0.5,
+                                  .seconds_left = 123.0,
+                                  .relative_error = 0.0016,
+                                  .bound = 0.0015,
+                                  .error_of = "indirect"};
+  const auto fitted = [&](std::size_t columns) { return fitted_progress_text("simulating", state, 3.0, columns); };
+  EXPECT_EQ(fitted(119), "simulating [########........] 50 %, 4.6 M rays, indirect error 0.0016 of 0.0015, 2 min 03 s left");
+  EXPECT_EQ(fitted(90), "simulating [####....] 50 %, 4.6 M rays, indirect error 0.0016 of 0.0015, 2 min 03 s left");
+  EXPECT_EQ(fitted(79), "simulating 50 %, 4.6 M rays, indirect error 0.0016 of 0.0015, 2 min 03 s left");
+  EXPECT_EQ(fitted(59), "simulating 50 %, 4.6 M rays, 2 min 03 s left");
+  EXPECT_EQ(fitted(15), "simulating 50 %");
+}
+
 TEST(log, goes_to_standard_error_only) {
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();

@@ -187,7 +187,7 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
        {{"sky_rays", result.indirect.sky_rays},
         {"packets", result.indirect.packets},
         {"rounds", result.indirect.rounds},
-        {"first_round_packets", std::floor(result.work.packets)},
+        {"first_round_packets", static_cast<std::uint64_t>(result.work.packets)},
         {"relative_error", value_or_null(result.indirect.relative_error)},
         {"judged", judged_json(result.indirect.judged, model)},
         {"bound", value_or_null(result.indirect.bound)},

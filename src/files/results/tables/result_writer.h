@@ -28,7 +28,7 @@ struct RunRecord {
   std::optional<double> grid_m;  // this and the next four: user settings that fix or limit the work
   std::optional<int> passes;
   std::optional<std::uint64_t> max_rays;
-  std::optional<double> memory_bytes;  // bound on replicates in progress
+  std::optional<std::uint64_t> memory_bytes;  // bound on replicates in progress
   std::optional<double> max_seconds;
   int threads = 0;  // 0: all
   int ranks = 1;    // number of processes that shared the work
