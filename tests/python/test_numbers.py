@@ -89,6 +89,18 @@ def test_organs_plants_and_placement_of_arrays():
     assert list(result["plant"]) == [2, 2, 5, 7, 7, 10]
 
 
+def test_entries_of_the_same_plant_are_parts_of_it():
+    parts = [
+        {"vertices": LEAVES, "optics": "leaf", "plant": 7},
+        {"vertices": LEAVES - [0, 0.1, 0], "optics": "stem", "plant": 7},
+        {"vertices": LEAVES - [0, 0.2, 0], "optics": "leaf", "plant": 3},
+        {"vertices": LEAVES - [0, 0.3, 0], "optics": "leaf"},
+    ]
+    result = sunfleck.run({**TABLES, "geometry": parts}, **WORK)
+    assert list(result.organs["plant"]) == [7, 7, 3, 8]
+    assert list(result.plants["plant"]) == [3, 7, 8]
+
+
 def test_roles_and_organs_of_arrays():
     frames = sunfleck.run(with_arrays(role="structure"), **WORK)
     assert set(frames.organs["role"]) == {"structure"}

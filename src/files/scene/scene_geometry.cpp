@@ -46,7 +46,8 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
                  fmt::format("rows * per_row gives {} plants, but at most {} are allowed", plants_so_far, most_plants),
                  "use fewer; a periodic plot repeats them without end");
   }
-  const auto spacing_m = table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres, as [0.6, 0.6]"});
+  const auto spacing_m =
+      table.numbers("spacing", 2, {.lo = 0.0, .hi = 1000.0, .lo_open = true, .cure = "give metres, as [0.6, 0.6]"});
   if (spacing_m) {
     stand.spacing_in_row_m = (*spacing_m)[0];
     stand.spacing_between_rows_m = (*spacing_m)[1];
@@ -232,16 +233,17 @@ std::vector<PlacedMesh> load_geometry(std::span<const GeometryPart> parts, Sourc
   std::vector<PlacedMesh> meshes;
   std::size_t triangles = 0;
   double bytes = 0.0;
-  std::set<std::uint32_t> plant_numbers;
+  UsedPlants plants;
   for (const GeometryPart& part : parts) {
     if (part.maize) {
-      const auto plants = static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
-      refuse_many(part, triangles + plants * least_of_plant, bytes + bytes_of(plants * least_of_plant, false));
+      const std::size_t of_maize =
+          least_of_plant * static_cast<std::size_t>(part.maize->rows) * static_cast<std::size_t>(part.maize->per_row);
+      refuse_many(part, triangles + of_maize, bytes + bytes_of(of_maize, false));
     }
     meshes.push_back({load_mesh(part, files), part.placements, part.role, part.instances});
     Mesh& mesh = meshes.back().mesh;
     apply_optics_rules(part.table, part.optics, mesh, warnings);
-    check_plant_numbers(part.table, mesh, part.placements, plant_numbers);
+    check_plant_numbers(part.table, mesh, part.placements, plants);
     refuse_far(part, mesh);
     const std::size_t placed = mesh.triangles.size() * part.placements.size();
     triangles += placed;

@@ -53,25 +53,24 @@ std::vector<Placement> read_placements(const TomlTable& geometry, const std::fil
 }
 
 void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
-                         std::set<std::uint32_t>& used) {
+                         UsedPlants& plants) {
   std::set<std::uint32_t> own;
   for (const Organ& organ : mesh.organs) {
     if (organ.plant > 0) own.insert(organ.plant);
   }
   if (own.empty()) return;
-  for (const Placement& placement : placements) {
-    const std::uint32_t highest = used.empty() ? 0 : *used.rbegin();
-    if (!placement.plant) {
-      for (const std::uint32_t number : own) used.insert(highest + number);
-      continue;
-    }
-    if (own.size() > 1) {
+  for (std::size_t copy = 0; copy < placements.size(); ++copy) {
+    const std::optional<std::uint32_t>& given = placements[copy].plant;
+    if (given && own.size() > 1) {
       geometry.refuse("positions", fmt::format("its plants have numbers, but the mesh consists of {} plants", own.size()),
                       "remove the column plant; the plants are then numbered in the order of the file");
     }
-    if (used.insert(*placement.plant).second) continue;
-    geometry.refuse("positions", fmt::format("plant {} is there already, from an earlier [[geometry]]", *placement.plant),
-                    fmt::format("use numbers above {}", highest));
+    if (given && plants.used.contains(*given)) {
+      geometry.refuse("positions", fmt::format("plant {} is there already, from an earlier [[geometry]]", *given),
+                      fmt::format("use numbers above {}", *plants.used.rbegin()));
+    }
+    plants.numbers.begin_copy(mesh, copy, placements[copy]);
+    for (const std::uint32_t plant : own) plants.used.insert(plants.numbers.of(plant));
   }
 }
 

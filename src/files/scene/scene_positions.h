@@ -3,8 +3,9 @@
 
 #include "files/scene/scene_reader.h"
 #include "files/scene/toml_view.h"
-#include "physics/canopy/mesh.h"
+#include "physics/canopy/plants.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <vector>
@@ -16,9 +17,15 @@ namespace sunfleck {
 [[nodiscard]] std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file,
                                                      const Plot& plot, const SceneAccess& access);
 
-// Refuses plant numbers of a file of positions for a mesh with several plants, and those that are in use already. `used` holds
-// the numbers of all plants so far, to which those of this mesh are added.
+// The plants of the geometry so far.
+struct UsedPlants {
+  PlantNumbers numbers;
+  std::set<std::uint32_t> used;
+};
+
+// Refuses plant numbers of a file of positions for a mesh with several plants, and those that are in use already. The plants of
+// this mesh are added to `plants`.
 void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
-                         std::set<std::uint32_t>& used);
+                         UsedPlants& plants);
 
 }  // namespace sunfleck

@@ -97,21 +97,13 @@ std::vector<std::uint16_t> merge_optics_names(Canopy& canopy, const Mesh& mesh) 
   return merged;
 }
 
-// Appends the organs of one copy, its plants numbered from `offset` unless it has a number of its own; returns the highest
-// plant number in use.
-std::uint32_t add_organs(Canopy& canopy, const PlacedMesh& part, const Placement& placement, std::uint32_t offset) {
-  std::uint32_t highest = offset;
+// Appends the organs of one copy.
+void add_organs(Canopy& canopy, const PlacedMesh& part, PlantNumbers& plants) {
   for (Organ organ : part.mesh.organs) {
     if (part.role) organ.role = part.role;
-    if (organ.plant > std::numeric_limits<std::uint32_t>::max() - offset) {
-      throw_input(fmt::format("plant {} of a mesh", organ.plant), fmt::format("{} plants come before it, too many", offset),
-                  "number a mesh's plants from 1");
-    }
-    if (organ.plant > 0) organ.plant = placement.plant.value_or(organ.plant + offset);
-    highest = std::max(highest, organ.plant);
+    if (organ.plant > 0) organ.plant = plants.of(organ.plant);
     canopy.organs.push_back(std::move(organ));
   }
-  return highest;
 }
 
 // Returns where single precision should count a mesh from.
@@ -203,13 +195,14 @@ Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
   }
   canopy.corners.reserve(own_elements);
   const CornerPlacer placer(canopy, plot);
-  std::uint32_t highest_plant = 0;
+  PlantNumbers plants;
   for (const PlacedMesh& part : parts) {
     const Mesh& mesh = part.mesh;
     const std::vector<std::uint16_t> optics = merge_optics_names(canopy, mesh);
-    for (const Placement& placement : part.placements) {
+    for (std::size_t copy = 0; copy < part.placements.size(); ++copy) {
       const auto first_organ = static_cast<std::uint32_t>(canopy.organs.size());
-      highest_plant = add_organs(canopy, part, placement, highest_plant);
+      plants.begin_copy(mesh, copy, part.placements[copy]);
+      add_organs(canopy, part, plants);
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         canopy.organ_of.push_back(first_organ + mesh.organ_of[t]);
         canopy.optics_of.push_back(optics[mesh.optics_of[t]]);

@@ -34,6 +34,7 @@ struct Mesh {
   std::vector<Organ> organs;              // [organ], all different
   // [triangle], as in a .can file: O PPPPP LLL EEE as one number, or no_label; empty without any.
   std::vector<std::uint64_t> labels;
+  bool keeps_plants = false;  // whether its plants have their own numbers in the canopy, too, in its first copy
 };
 
 // The placement of a copy of a mesh in the scene: scaled, turned clockwise as seen from above, then moved.

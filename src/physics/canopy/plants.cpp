@@ -1,8 +1,13 @@
 #include "physics/canopy/plants.h"
 
+#include "base/error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 
 namespace sunfleck {
@@ -39,20 +44,34 @@ std::map<std::uint32_t, glm::dvec3> feet_m(const Mesh& mesh) {
 
 }  // namespace
 
+void PlantNumbers::begin_copy(const Mesh& mesh, std::size_t copy, const Placement& placement) {
+  given_ = placement.plant;
+  offset_ = mesh.keeps_plants && copy == 0 ? 0 : highest_;
+}
+
+std::uint32_t PlantNumbers::of(std::uint32_t plant) {
+  if (plant > std::numeric_limits<std::uint32_t>::max() - offset_) {
+    throw_input(fmt::format("plant {} of a mesh", plant), fmt::format("{} plants come before it, too many", offset_),
+                "number a mesh's plants from 1");
+  }
+  const std::uint32_t number = given_.value_or(offset_ + plant);
+  highest_ = std::max(highest_, number);
+  return number;
+}
+
 std::vector<PlantSite> plant_sites(std::span<const PlacedMesh> parts) {
-  std::vector<PlantSite> sites;
-  std::uint32_t highest = 0;
+  std::map<std::uint32_t, glm::dvec3> positions_m;
+  PlantNumbers numbers;
   for (const PlacedMesh& part : parts) {
     const std::map<std::uint32_t, glm::dvec3> feet = feet_m(part.mesh);
-    for (const Placement& placement : part.placements) {
-      const std::uint32_t offset = highest;
-      for (const auto& [number, foot_m] : feet) {
-        sites.push_back({placement.plant.value_or(offset + number), placed_m(foot_m, placement)});
-        highest = std::max(highest, sites.back().plant);
-      }
+    for (std::size_t copy = 0; copy < part.placements.size(); ++copy) {
+      const Placement& placement = part.placements[copy];
+      numbers.begin_copy(part.mesh, copy, placement);
+      for (const auto& [plant, foot_m] : feet) positions_m.try_emplace(numbers.of(plant), placed_m(foot_m, placement));
     }
   }
-  std::sort(sites.begin(), sites.end(), [](const PlantSite& a, const PlantSite& b) { return a.plant < b.plant; });
+  std::vector<PlantSite> sites;
+  for (const auto& [plant, position_m] : positions_m) sites.push_back({plant, position_m});
   return sites;
 }
 

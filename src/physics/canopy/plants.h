@@ -3,8 +3,10 @@
 
 #include "physics/canopy/mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +22,22 @@ struct PlantSite {
   friend bool operator==(const PlantSite&, const PlantSite&) = default;
 };
 
-// Returns the plants of all copies, numbered as by assemble_canopy, ascending.
+// Numbers the plants of a stand, copy by copy: those of a mesh follow the plants before them, unless the copy has a number of its
+// own or the mesh keeps its numbers, so that its plants may be parts of earlier ones.
+class PlantNumbers {
+ public:
+  void begin_copy(const Mesh& mesh, std::size_t copy, const Placement& placement);
+
+  // Returns the number in the stand of a plant of the mesh. Throws Error (input) if it is too large.
+  [[nodiscard]] std::uint32_t of(std::uint32_t plant);
+
+ private:
+  std::optional<std::uint32_t> given_;
+  std::uint32_t offset_ = 0, highest_ = 0;
+};
+
+// Returns the plants of all copies, numbered as by assemble_canopy, ascending. A plant of several meshes stands where the first of
+// them says.
 [[nodiscard]] std::vector<PlantSite> plant_sites(std::span<const PlacedMesh> parts);
 
 }  // namespace sunfleck

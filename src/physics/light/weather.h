@@ -88,7 +88,7 @@ struct Weather {
   std::vector<WeatherInterval> intervals;  // for Source::intervals
   std::string name;                        // name of their file, for messages
 
-  int zone_minutes = 0;                    // local time of the file minus UTC
+  int zone_minutes = 0;  // local time of the file minus UTC
 
   // A typical year: the intervals cover one whole calendar year of local time and apply to every year.
   bool every_year = false;

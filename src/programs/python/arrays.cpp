@@ -23,7 +23,7 @@ std::vector<std::uint32_t> column(const Numbers& array, const char* name) {
 
 Mesh mesh_of(const Doubles& vertices, const Numbers& triangles, const Numbers& optics,
              const std::vector<std::string>& optics_names, const Numbers& organs,
-             const std::vector<std::tuple<std::uint32_t, std::string, int>>& organ_names) {
+             const std::vector<std::tuple<std::uint32_t, std::string, int>>& organ_names, bool keeps_plants) {
   check_rows_of_three(vertices, "vertices");
   check_rows_of_three(triangles, "triangles");
   Mesh mesh;
@@ -37,6 +37,7 @@ Mesh mesh_of(const Doubles& vertices, const Numbers& triangles, const Numbers& o
   mesh.organ_of = column(organs, "organ");
   mesh.optics_names = optics_names;
   for (const auto& [plant, name, rank] : organ_names) mesh.organs.push_back({plant, name, rank});
+  mesh.keeps_plants = keeps_plants;
   return mesh;
 }
 

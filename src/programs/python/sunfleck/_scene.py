@@ -206,4 +206,4 @@ def _mesh(part: Mapping[str, Any], place: str) -> Any:
     found, number = _distinct(keys)
     organs = [(int(plant), kind_names[kind], int(rank)) for plant, kind, rank in found]
     flat = np.ascontiguousarray(vertices.reshape(-1, 3), dtype=np.float64)
-    return _core.Mesh(flat, triangles, optics, optics_names, number, organs)
+    return _core.Mesh(flat, triangles, optics, optics_names, number, organs, "plant" in part)

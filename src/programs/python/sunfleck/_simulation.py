@@ -47,8 +47,10 @@ class Simulation:
     scene: the path of a scene file (TOML), or a dict with its keys. In a dict an entry of `geometry` may hold arrays instead of
         a file: `vertices`, float (n, 3), m, with `triangles`, int (m, 3), or vertices (m, 3, 3) alone; `optics`, one name of an
         [optics] table, m names, or a dict of patterns of the names in `organ`, {"leaf*": "leaf", "*": "stem"}; and optionally
-        `organ` (names; default: as optics), `plant` and `rank` (whole numbers; default 1 and 0), one for all triangles or m of
-        them; `up` ("y" or "z"), `scale`, `heading` and `at`, or `positions`, `role`, `split` and `instances` work as for files.
+        `organ` (names; default: as optics), `plant` and `rank` (whole numbers), one for all triangles or m of them; `up` ("x",
+        "y" or "z"), `scale`, `heading` and `at`, or `positions`, `role`, `split` and `instances` work as for files. Entries that
+        give the same `plant` are parts of one plant; further copies of an entry, by `at`, and entries without `plant` are numbered
+        after the plants before them.
     folder: folder in which the files of a dict are looked up (default: the current folder).
     device: auto (a GPU if there is one, else cpu), gpu, lavapipe, cpu, a device number or part of a device name, as with the
         program's --device.

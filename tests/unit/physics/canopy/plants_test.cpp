@@ -2,6 +2,8 @@
 
 #include "physics/canopy/plants.h"
 
+#include "physics/canopy/canopy.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -55,6 +57,19 @@ TEST(Plants, KeepTheirNumbers) {
   const std::vector<PlacedMesh> parts{{squares({1}), {{{1, 0, 0}, 0.0, 1.0, 9}, {{2, 0, 0}, 0.0, 1.0, 4}}, {}},
                                       {squares({5}), {{{3, 0, 0}}}, {}}};
   expect_sites(parts, {{4, {2, 0, 0}}, {9, {1, 0, 0}}, {14, {3, 0, 0}}});
+}
+
+TEST(Plants, OfMeshesThatKeepTheirNumbersMayBePartsOfOne) {
+  Mesh leaves = squares({7}), stems = squares({7, 3});
+  leaves.keeps_plants = stems.keeps_plants = true;
+  const std::vector<PlacedMesh> parts{
+      {leaves, {{{1, 0, 0}}, {{2, 0, 0}}}, {}}, {stems, {{}}, {}}, {squares({1}), {{{4, 0, 0}}}, {}}};
+  // The second copy of the leaves follows the first, and the last mesh all others.
+  expect_sites(parts, {{3, {1.5, 0, 0.5}}, {7, {1, 0, 0}}, {14, {2, 0, 0}}, {15, {4, 0, 0}}});
+  const Canopy canopy = assemble_canopy(parts, {10.0, 10.0, false});
+  std::vector<std::uint32_t> numbers;
+  for (const Organ& organ : canopy.organs) numbers.push_back(organ.plant);
+  EXPECT_EQ(numbers, (std::vector<std::uint32_t>{7, 14, 7, 3, 15}));
 }
 
 }  // namespace
