@@ -24,6 +24,8 @@ namespace {
 constexpr double widest_bound = 0.02;
 constexpr std::size_t least_bounds = 3, most_bounds = 10;
 constexpr double growth_per_bound = 4.0;
+// The light of triangles takes a run as long as about that many rays for each of them.
+constexpr double rays_per_triangle = 10.0;
 constexpr double most_of_reference = 1.0;
 // Offset of the seeds of the reference's parts, which keeps them apart from those of the runs.
 constexpr std::uint64_t reference_seed = std::uint64_t{1} << 40U;
@@ -41,11 +43,7 @@ class TradeoffMeasurement {
         plan_(plan_tradeoff(simulation.model(), options.finest_rays, options.run.grid_m)),
         report_(report),
         table_(table) {
-    const double per_run = reference_rays() + reference_packets();
-    foreseen_ = per_run + reference_rays() + options.seeds * 0.3 * per_run;
-    for (const double grid_m : plan_.grids_m)
-      foreseen_ += options.seeds * simulation.model().plot.area_m2() / (grid_m * grid_m);
-    for (const double packets : plan_.packets) foreseen_ += options.seeds * 2.0 * tradeoff_replicates * packets;
+    foresee();
   }
 
   // Runs all measurements. Returns false if stopped before the end.
@@ -66,6 +64,25 @@ class TradeoffMeasurement {
   }
 
  private:
+  // Adds up the work of all runs, of which those to bounds are a guess.
+  void foresee() {
+    const double of_reference = reference_rays() + reference_packets();
+    foreseen_ = of_reference + reference_parts * work_beside_rays();
+    if (!plan_.grids_m.empty()) foreseen_ += reference_rays() + reference_parts * work_beside_rays();
+    const auto add = [&](std::size_t before_last, double rays) {
+      foreseen_ += options_.seeds * seeds_factor(before_last) * (rays + work_beside_rays());
+    };
+    for (std::size_t k = 0; k < plan_.grids_m.size(); ++k)
+      add(plan_.grids_m.size() - 1 - k, all_light_.model().plot.area_m2() / (plan_.grids_m[k] * plan_.grids_m[k]));
+    for (std::size_t k = 0; k < plan_.packets.size(); ++k)
+      add(plan_.packets.size() - 1 - k, 2.0 * tradeoff_replicates * plan_.packets[k]);
+    foreseen_ += options_.seeds * (of_reference + static_cast<double>(least_bounds) * work_beside_rays());
+  }
+  // Returns what a run does beside tracing, the light of triangles, in rays.
+  [[nodiscard]] double work_beside_rays() const {
+    return rays_per_triangle * static_cast<double>(all_light_.model().canopy.size());
+  }
+
   [[nodiscard]] double reference_rays() const {
     return reference_parts * all_light_.model().plot.area_m2() / (plan_.reference_grid_m * plan_.reference_grid_m);
   }
@@ -88,14 +105,15 @@ class TradeoffMeasurement {
     Monitor monitor;
     monitor.interrupted = [this] { return stop(); };
     monitor.report = [this](const Progress& state) {
-      const double rays = static_cast<double>(rays_ + state.rays);
-      progress_.update({.rays = rays_ + state.rays, .fraction = std::min(0.99, rays / foreseen_)});
+      const double fraction = (work_ + static_cast<double>(state.rays)) / foreseen_;
+      progress_.update({.rays = rays_ + state.rays, .fraction = std::min(0.99, fraction)});
     };
     Stopwatch watch;
     Simulated run{simulation.solve(settings, monitor)};
     run.seconds = watch.lap();
     if (run.result.stop == StopReason::interrupted) return {};
     rays_ += run.rays();
+    work_ += static_cast<double>(run.rays()) + work_beside_rays();
     return run;
   }
 
@@ -203,6 +221,8 @@ class TradeoffMeasurement {
     for (std::size_t k = 0; k < most_bounds; ++k, bound *= 0.5) {
       SolveSettings settings = settings_;
       settings.accuracy.direct = settings.accuracy.indirect = bound;
+      const double expected = growth_per_bound * static_cast<double>(last_direct_ + last_indirect_) + work_beside_rays();
+      foreseen_ = std::max(foreseen_, work_ + options_.seeds * expected);
       if (!measure({TradeoffSeries::bounds, bound, {}}, all_light_, settings, options_.seeds)) return false;
       finest_bound_ = bound;
       const double most = most_of_reference / growth_per_bound;
@@ -241,7 +261,8 @@ class TradeoffMeasurement {
   const std::filesystem::path& table_;
   std::array<TradeoffReference, 3> references_;  // [light]
   const Stopwatch since_start_;
-  double foreseen_ = 1.0;  // rays and packets, as far as can be predicted
+  double foreseen_ = 1.0;  // rays and packets, and other work in rays, as far as can be predicted
+  double work_ = 0.0;      // the part of it that is done
   std::uint64_t rays_ = 0, last_direct_ = 0, last_indirect_ = 0;
   double finest_bound_ = widest_bound;
   ProgressLine progress_{"measuring"};
