@@ -3,7 +3,6 @@
 #include "base/large_pages.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <clocale>
 #include <cmath>
-#include <cstdlib>
 #include <system_error>
 
 namespace sunfleck {

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <initializer_list>
 
 namespace sunfleck {
 namespace {

@@ -14,7 +14,6 @@
 #include <new>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace sunfleck {
 namespace {

@@ -25,8 +25,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
 
 namespace sunfleck {
 namespace {

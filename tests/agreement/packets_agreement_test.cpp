@@ -3,7 +3,6 @@
 
 #include "agreement/scenes.h"
 #include "devices/tracers/vulkan_tracer.h"
-#include "physics/transport/indirect/indirect.h"
 #include "support/copies.h"
 #include "support/device.h"
 #include "support/landings.h"

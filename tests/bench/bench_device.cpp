@@ -6,7 +6,6 @@
 #include "bench/benches.h"
 #include "bench/measure.h"
 #include "bench/ours.h"
-#include "physics/transport/indirect/indirect.h"
 #include "physics/transport/model/beam_block.h"
 
 #include <benchmark/benchmark.h>

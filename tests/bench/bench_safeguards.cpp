@@ -6,7 +6,6 @@
 #include "bench/ours.h"
 #include "bench/rays.h"
 #include "physics/bvh/build.h"
-#include "physics/transport/indirect/indirect.h"
 #include "shared/beam.h"
 #include "shared/intersect.h"
 

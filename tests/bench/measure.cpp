@@ -2,7 +2,6 @@
 
 #include "bench/ours.h"
 #include "bench/peer.h"
-#include "physics/transport/indirect/indirect.h"
 
 #include <cstdint>
 #include <vector>

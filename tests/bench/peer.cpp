@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 
 namespace sunfleck::bench {
 namespace {

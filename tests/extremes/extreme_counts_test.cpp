@@ -2,7 +2,6 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "extremes/tracers.h"
-#include "physics/transport/indirect/landing_points.h"
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/beam_block.h"
 #include "physics/transport/solve/run_addition.h"

@@ -11,7 +11,6 @@
 #include "files/scene/scene_reader.h"
 #include "fuzz/support.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <numeric>
 
 namespace sunfleck::test::differential {
 namespace {

@@ -1,10 +1,8 @@
 #include "long/differential_paths.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace sunfleck::test::differential {

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace sunfleck::test::differential {
 namespace {

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <thread>
 #include <vector>
 

@@ -4,8 +4,6 @@
 #include "regression/program.h"
 #include "support/table.h"
 
-#include <cmath>
-
 namespace sunfleck::regression {
 namespace {
 

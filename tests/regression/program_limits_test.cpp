@@ -4,8 +4,6 @@
 #include "regression/small_scene.h"
 #include "support/table.h"
 
-#include <cmath>
-
 namespace sunfleck::regression {
 namespace {
 

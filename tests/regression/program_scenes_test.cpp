@@ -3,7 +3,6 @@
 #include "regression/program.h"
 #include "support/table.h"
 
-#include <cmath>
 #include <regex>
 
 namespace sunfleck::regression {

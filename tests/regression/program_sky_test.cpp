@@ -4,7 +4,6 @@
 #include "support/table.h"
 
 #include <array>
-#include <cmath>
 
 namespace sunfleck::regression {
 namespace {

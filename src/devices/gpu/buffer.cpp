@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <string>
 
-#include "base/check.h"
 #include "base/error.h"
 #include "base/rounding.h"
 

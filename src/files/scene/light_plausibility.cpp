@@ -1,6 +1,5 @@
 #include "files/scene/light_plausibility.h"
 
-#include "base/file.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>

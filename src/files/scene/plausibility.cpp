@@ -2,7 +2,6 @@
 
 #include "base/file.h"
 #include "base/text.h"
-#include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
-#include <optional>
 
 namespace sunfleck {
 namespace {

@@ -1,7 +1,6 @@
 #include "physics/bvh/encode.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
 
 namespace sunfleck {
 

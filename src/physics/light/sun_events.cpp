@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "base/error.h"
 

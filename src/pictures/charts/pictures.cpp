@@ -7,11 +7,8 @@
 #include "base/units.h"
 #include "devices/tracers/canopy_view.h"
 #include "physics/transport/model/surfaces.h"
-#include "pictures/charts/colouring.h"
 #include "pictures/charts/fields.h"
 #include "pictures/charts/open_spot.h"
-#include "pictures/drawing/camera.h"
-#include "pictures/drawing/chart.h"
 #include "pictures/drawing/value_image.h"
 #include "pictures/drawing/view_block.h"
 

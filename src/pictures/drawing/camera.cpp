@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
-#include <span>
 
 namespace sunfleck {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "files/results/tables/table_text.h"
+#include "files/results/tables/table.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include "base/random.h"
 #include "devices/tracers/cpu_tracer.h"
-#include "physics/transport/indirect/indirect.h"
 #include "physics/transport/model/beam_block.h"
 #include "programs/validate/known/case_scenes.h"
 

@@ -1,7 +1,6 @@
 #include "programs/viewer/live_light.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/folder_lock.h"
 #include "physics/transport/solve/darkness.h"
 #include "programs/viewer/saved_scene.h"
@@ -15,7 +14,6 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <utility>
 
 namespace sunfleck {
 namespace {

@@ -3,8 +3,6 @@
 #include "base/check.h"
 #include "base/error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>

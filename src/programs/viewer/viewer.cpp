@@ -2,8 +2,6 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "base/text.h"
-#include "base/units.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "programs/cli/terminal.h"
 #include "programs/viewer/compass.h"

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace sunfleck {
 
 RankHelpers::RankHelpers(Mailbox& mailbox, std::chrono::milliseconds silence)

@@ -8,7 +8,6 @@
 #include "files/formats/mesh/dae_reader.h"
 #include "files/formats/mesh/gltf_reader.h"
 #include "files/formats/mesh/mesh_content.h"
-#include "files/formats/mesh/mesh_source.h"
 #include "files/formats/mesh/obj_reader.h"
 #include "files/formats/mesh/opf_reader.h"
 #include "files/formats/mesh/ply_reader.h"

@@ -8,10 +8,8 @@
 #include <map>
 #include <set>
 #include <span>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace sunfleck {
 

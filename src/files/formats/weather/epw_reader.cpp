@@ -9,7 +9,6 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "files/results/tables/organ_kinds.h"
 
-#include "base/check.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <algorithm>

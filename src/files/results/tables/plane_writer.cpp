@@ -3,7 +3,6 @@
 #include "base/check.h"
 #include "files/results/tables/plane_map.h"
 #include "files/results/tables/table_text.h"
-#include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 

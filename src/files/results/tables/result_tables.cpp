@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-#include <optional>
-
 namespace sunfleck {
 namespace {
 

@@ -8,7 +8,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cstddef>
-#include <glm/geometric.hpp>
 
 namespace sunfleck {
 namespace {

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <optional>
 
 namespace sunfleck {
 namespace {

@@ -1,7 +1,6 @@
 #include "programs/validate/known/case_scenes.h"
 
 #include "base/random.h"
-#include "base/units.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -12,7 +12,6 @@
 
 #include <cstring>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include "files/scene/light_plausibility.h"
 
-#include "files/scene/receiver_plausibility.h"
 #include "files/scene/scene_reader.h"
 #include "support/scene_text.h"
 

@@ -1,4 +1,3 @@
-#include "base/error.h"
 #include "physics/bvh/build.h"
 #include "physics/bvh/bvh.h"
 #include "physics/bvh/references.h"

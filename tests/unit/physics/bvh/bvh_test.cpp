@@ -1,7 +1,6 @@
 #include "physics/bvh/bvh.h"
 
 #include "physics/bvh/build.h"
-#include "physics/bvh/decode.h"
 #include "support/bvh_check.h"
 
 #include <gtest/gtest.h>

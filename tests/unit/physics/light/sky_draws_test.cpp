@@ -10,7 +10,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
-#include <numbers>
 #include <random>
 
 namespace sunfleck::test {

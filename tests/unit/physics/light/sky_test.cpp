@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
-#include <numbers>
 
 namespace sunfleck::test {
 namespace {

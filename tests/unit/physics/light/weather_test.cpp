@@ -1,6 +1,5 @@
 #include "physics/light/weather.h"
 
-#include "base/error.h"
 #include "base/units.h"
 #include "support/error_text.h"
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <stdexcept>
 #include <string>
 

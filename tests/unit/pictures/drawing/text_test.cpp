@@ -8,7 +8,6 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace sunfleck::test {
 namespace {

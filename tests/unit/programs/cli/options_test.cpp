@@ -1,6 +1,5 @@
 #include "programs/cli/options.h"
 
-#include "base/error.h"
 #include "base/version.h"
 #include "support/error_text.h"
 

@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <stdexcept>
 
 namespace sunfleck {

@@ -1,6 +1,5 @@
 #include "simulate/cluster/launch.h"
 
-#include "base/error.h"
 #include "simulate/cluster/job.h"
 #include "simulate/cluster/no_job.h"
 #include "support/error_text.h"

@@ -2,7 +2,6 @@
 
 #include "files/formats/caribu/light_reader.h"
 
-#include "base/error.h"
 #include "physics/light/sky.h"
 #include "support/error_text.h"
 #include "support/temp_folder.h"

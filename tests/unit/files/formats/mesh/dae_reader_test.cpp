@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 #include "files/formats/mesh/mesh_text.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/mesh_writer.h"
 #include "support/error_text.h"

@@ -5,7 +5,6 @@
 #include "support/mesh_files.h"
 
 #include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 
 #include <string>
 #include <vector>

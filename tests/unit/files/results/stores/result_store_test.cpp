@@ -1,6 +1,5 @@
 #include "files/results/stores/result_store.h"
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/packed_array.h"
 #include "support/scene_text.h"
