@@ -37,9 +37,7 @@ Table sensors_day_table(const DayStand& stand, const DayPart& part) {
   const std::vector<std::size_t> by_point{1};
   Table table{"Sensors at each step, point by point",
               fmt::format("time: start of the step; x, y, z: m ({}); {}", axes_text(model.plot.axes), reading_units),
-              {},
-              {part.lights.size(), points.size()},
-              {}};
+              {part.lights.size(), points.size()}};
   add_step_times(table, part.course);
   table.add({"sensor", "", "name of the sensor", outputs, by_point}, [&](std::size_t p) { return points[p].sensor.name; });
   table.add({"point", "1", "number of the point in its sensor, from 0", outputs, by_point},
@@ -56,9 +54,7 @@ Table sensor_means_day_table(const DayStand& stand, const DayPart& part) {
   const std::size_t sensors = model.sensors.size();
   Table table{"Sensors at each step, each the mean over its points",
               fmt::format("time: start of the step; {}", reading_units),
-              {},
-              {part.lights.size(), sensors},
-              {}};
+              {part.lights.size(), sensors}};
   add_step_times(table, part.course);
   add_sensor_names(table, model.sensors);
   add_readings(table, model.bands, outputs, [&](std::size_t row, std::size_t band) {
@@ -74,9 +70,7 @@ Table sensor_day_sums_table(const DayStand& stand, const DayPart& part) {
   Table table{"Sensors on each date, the mean over their points summed over the steps",
               "direct, sky, scattered, total: MJ m-2 and mol of photons m-2, on a plane (cosine response) or on a sphere's "
               "cross-section (spherical); _error: half-width of the confidence interval",
-              {},
-              {dates.size(), sensors},
-              {}};
+              {dates.size(), sensors}};
   add_dates(table, part);
   add_sensor_names(table, model.sensors);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
@@ -99,9 +93,7 @@ Table planes_day_table(const DayStand& stand, const DayPart& part) {
   Table table{"The light that comes down through horizontal planes at each step",
               "time: start of the step; height_m: m; sunfleck_ratio: share of the plane that the direct beam reaches; down: W "
               "m-2; down_umol_m2_s: the same in photons, umol m-2 s-1; _error: half-width of the confidence interval",
-              {},
-              {part.lights.size(), planes},
-              {}};
+              {part.lights.size(), planes}};
   add_step_times(table, part.course);
   add_heights(table, model.planes);
   table.add({"sunfleck_ratio", "1", "share of the plane that the direct beam reaches"},
@@ -125,9 +117,7 @@ Table plane_day_sums_table(const DayStand& stand, const DayPart& part) {
   const std::vector<std::size_t> dates = part.dates();
   Table table{"The light that came down through horizontal planes on each date",
               "height_m: m; down: MJ m-2 and mol of photons m-2; _error: half-width of the confidence interval",
-              {},
-              {dates.size(), planes},
-              {}};
+              {dates.size(), planes}};
   add_dates(table, part);
   add_heights(table, model.planes);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {

@@ -68,9 +68,7 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
       "time: start of the step; step_s: s; elevation, azimuth: of the middle, degrees; incident, absorbed, reflected, "
       "transmitted, unshot: W m-2 of ground; _sunlit, _shaded: W m-2 of that leaf area; sunlit_leaf_fraction: share; _error: "
       "half-width of the confidence interval",
-      {},
-      {lights.size()},
-      {}};
+      {lights.size()}};
   add_step_times(table, part.course);
   table.add({"step_s", "s", "length of the step"}, [&](std::size_t i) { return steps[i].length_s; });
   table.add({"elevation_deg", "degree", "elevation of the sun at the middle of the step"},
@@ -108,9 +106,7 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
       "The light of each date: sums over its steps",
       "steps: their number; incident, absorbed, reflected, transmitted, unshot: per ground area, MJ m-2 and mol of photons "
       "m-2; _error: half-width of the confidence interval",
-      {},
-      {dates.size()},
-      {}};
+      {dates.size()}};
   add_dates(table, part);
   table.add({"steps", "1", "number of its steps"},
             [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
@@ -142,9 +138,7 @@ Table organs_day_table(const DayStand& stand, const DayPart& part) {
   Table table{"What organs absorbed over the steps of each date, soil elements included; the ground of [soil] has no row",
               "area_m2: m2, one-sided; absorbed: per one-sided area, MJ m-2 and mol of photons m-2; _error: half-width of the "
               "confidence interval",
-              {},
-              {dates.size(), organs.size()},
-              {}};
+              {dates.size(), organs.size()}};
   add_dates(table, part);
   add_organ_names(table, organs, 1);
   table.add({"area_m2", "m2", "one-sided area", table_outputs, by_organ}, stand.kinds.organ_m2);
@@ -169,9 +163,7 @@ Table plants_day_table(const DayStand& stand, const DayPart& part) {
           "x, y, z: m ({}); height_m: m; leaf_area_m2: m2, one-sided; absorbed: of the whole plant, MJ and mol of photons; "
           "_error: half-width of the confidence interval",
           axes_text(model.plot.axes)),
-      {},
-      {dates.size(), plants.size()},
-      {}};
+      {dates.size(), plants.size()}};
   add_dates(table, part);
   add_plants(table, stand, 1);
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
@@ -200,9 +192,7 @@ Table season_table(const DayStand& stand, const DayPart& part) {
       "organs: their number; area_m2: m2, one-sided, of soil as seen from above; area_index: the same per ground area; "
       "absorbed_ground: per ground area, MJ m-2 and mol of photons m-2; absorbed_share: share of what arrived; absorbed: per "
       "one-sided area of the kind, MJ m-2 and mol m-2; _error: half-width of the confidence interval",
-      {},
-      {dates.size(), kinds.size()},
-      {}};
+      {dates.size(), kinds.size()}};
   add_dates(table, part);
   const auto add = [&](const char* name, const char* unit, const char* meaning, const auto& value) {
     table.add({name, unit, meaning, table_outputs, by_kind}, value);
@@ -239,7 +229,7 @@ Table season_table(const DayStand& stand, const DayPart& part) {
 Table organ_steps_table(const DayStand& stand, const DayPart& part) {
   const RadiationModel& model = stand.model;
   const std::vector<Organ>& organs = model.canopy.organs;
-  Table table{"What organs absorb at each step", "W m-2 of one-sided area", {}, {part.lights.size(), organs.size()}, {}};
+  Table table{"What organs absorb at each step", "W m-2 of one-sided area", {part.lights.size(), organs.size()}};
   add_step_times(table, part.course);
   add_organ_names(table, organs, 1);
   table.add({"area_m2", "m2", "one-sided area", table_outputs, std::vector<std::size_t>{1}}, stand.kinds.organ_m2);

@@ -150,9 +150,7 @@ Table triangles_table(const ElementFields& fields) {
                           "a part of indirect), indirect: W m-2 incident on the face; absorbed: W m-2, both faces; _error: "
                           "half-width of the confidence interval{}",
                           axes_text(fields.axes), lacks_errors(fields) ? ", empty below 20 hits" : ""),
-              {},
-              {fields.size()},
-              {}};
+              {fields.size()}};
   table.columns.push_back({.name = "triangle",
                            .unit = "1",
                            .meaning = "number of the triangle, in the order of the files",

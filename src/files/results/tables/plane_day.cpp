@@ -105,9 +105,8 @@ Table PlaneMapSums::table(const DayCourse& course, std::size_t plane) const {
               map.centres_text() +
                   "; sunlit_h: hours in direct sun; sunlit_share: the same as a share of the hours with a direct "
                   "beam; direct, total: MJ m-2 and mol of photons m-2 downwards",
-              {fmt::format("dates {}, steps {}, hours with a direct beam {:.9g}", dates, steps_, beam_s_ / seconds_per_hour)},
               {map.second.cells, map.first.cells},
-              {}};
+              {fmt::format("dates {}, steps {}, hours with a direct beam {:.9g}", dates, steps_, beam_s_ / seconds_per_hour)}};
   map.add_centres(table);
   const auto share = [&](std::size_t c) { return sums.known_s > 0.0 ? sums.sunlit_s[c] / sums.known_s : no_value; };
   table.add({"sunlit_h", "h", "time in direct sun"},

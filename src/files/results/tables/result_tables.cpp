@@ -26,11 +26,8 @@ Table table_of_sensors(const RadiationModel& model, const RadiationResult& resul
     EXPECT(result.sensors[s].size(), ==, sensor.points_m.size());
     for (std::uint32_t p = 0; p < sensor.points_m.size(); ++p) rows.push_back({sensor, p, result.sensors[s][p]});
   }
-  Table table{"Sensors, point by point",
-              fmt::format("x, y, z: m ({}); {}", axes_text(model.plot.axes), reading_units),
-              {},
-              {rows.size()},
-              {}};
+  Table table{
+      "Sensors, point by point", fmt::format("x, y, z: m ({}); {}", axes_text(model.plot.axes), reading_units), {rows.size()}};
   table.add({"sensor", "", "name of the sensor", in_csv}, [&](std::size_t i) { return rows[i].sensor.name; });
   table.add({"point", "1", "number of the point in its sensor, from 0", in_csv}, [&](std::size_t i) { return rows[i].point; });
   add_positions(table, model.plot, {}, [&](std::size_t i) { return rows[i].sensor.points_m[rows[i].point]; });
@@ -132,9 +129,7 @@ Table organs_table(const RadiationModel& model, const RadiationResult& result) {
               "area_m2: m2, one-sided; sunlit_fraction: share of the area in direct sun; direct, indirect, absorbed: W m-2, "
               "mean over the organ's one-sided area; umol_m2_s: the same in photons; _sunlit, _shaded: mean over that part of "
               "the area; _sd: standard deviation over it; _error: half-width of the confidence interval",
-              {},
-              {organs.size()},
-              {}};
+              {organs.size()}};
   add_organ_names(table, organs, 0);
   table.add({"area_m2", "m2", "one-sided area"}, [&](std::size_t o) { return light[o].area_m2; });
   table.add({"sunlit_fraction", "1", "share of the area in direct sun"},
@@ -167,9 +162,7 @@ Table plants_table(const RadiationModel& model, const RadiationResult& result) {
           "in direct sun; incident, absorbed: W, of the whole plant; absorbed_umol_s: the same in photons, umol s-1; _error: "
           "half-width of the confidence interval",
           axes_text(model.plot.axes)),
-      {},
-      {plants.size()},
-      {}};
+      {plants.size()}};
   table.add({"plant", "1", "number of the plant"}, [&](std::size_t p) { return plants[p].plant; });
   add_positions(table, model.plot, {}, [&](std::size_t p) { return plants[p].position_m; });
   table.add({"height_m", "m", "height from its lowest to its highest point"},
@@ -199,9 +192,7 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
       "height_m: m; down, up: W m-2 through the plane; absorbed: W m-2 of ground in the layer; _sunlit, _shaded: W m-2 "
       "of that leaf area; _sd: standard deviation over it; umol_m2_s: in photons; leaf_area_index: m2 of leaves on a m2 of "
       "ground; others: shares; _error: half-width of the confidence interval",
-      {},
-      {layers.size()},
-      {}};
+      {layers.size()}};
   table.add({"height_m", "m", "height of the horizontal plane", everywhere_but_meshes},
             [&](std::size_t i) { return layers[i].height_m; });
   table.add({"leaf_area_index", "1", "one-sided leaf area in the layer per ground area"},
@@ -230,7 +221,7 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
 
 Table balance_table(const RadiationResult& result) {
   const std::vector<BandResult>& bands = result.bands;
-  Table table{"Bands", "W m-2 of ground", {}, {bands.size()}, {}};
+  Table table{"Bands", "W m-2 of ground", {bands.size()}};
   const auto add = [&](const char* name, const char* meaning, const auto term) {
     table.add({name, "W m-2", meaning, in_netcdf | in_arrays}, [&](std::size_t b) { return bands[b].*term; });
   };
@@ -254,7 +245,7 @@ Table sensor_table(const RadiationModel& model, const RadiationResult& result, s
 
 Table sensor_means_table(const RadiationModel& model, const RadiationResult& result) {
   EXPECT(result.sensor_means.size(), ==, model.sensors.size());
-  Table table{"Sensors, each the mean over its points", reading_units, {}, {model.sensors.size()}, {}};
+  Table table{"Sensors, each the mean over its points", reading_units, {model.sensors.size()}};
   table.add({"sensor", "", "name of the sensor"}, [&](std::size_t s) { return model.sensors[s].name; });
   table.add({"points", "1", "number of its points", everywhere_but_meshes},
             [&](std::size_t s) { return static_cast<std::uint32_t>(model.sensors[s].points_m.size()); });

@@ -51,8 +51,8 @@ struct Column {
 struct Table {
   std::string content;             // says what a row is
   std::string units;               // describes the columns in a line of text
-  std::vector<std::string> notes;  // further lines of text
   std::vector<std::size_t> shape;  // sizes of the axes; rows run through them, the last fastest
+  std::vector<std::string> notes;  // further lines of text
   std::vector<Column> columns;
 
   [[nodiscard]] std::size_t rows() const;

@@ -17,7 +17,7 @@ std::string below_head(const std::string& text) {
 }
 
 Table empty_table(std::vector<std::size_t> shape) {
-  return {"the content", "the units", {}, std::move(shape), {}};
+  return {"the content", "the units", std::move(shape)};
 }
 
 TEST(Table, WritesEveryKindOfValue) {
