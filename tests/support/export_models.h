@@ -36,8 +36,8 @@ inline RadiationModel two_triangles() {
 // The first triangle has 20 and 4 landings of 0.01 m2 of level ground; in B a quantum is 0.01 W.
 inline RadiationResult two_triangles_result() {
   RadiationResult result;
-  result.bands = {{"A", {}, {100.0, 0.0}, 0.0, {60.0, 1.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}},
-                  {"B-2", {}, {200.0, 0.0}, 20.0, {100.0, 21.0}, {60.0, 22.0}, {0.0, 20.0}, {20.0, 20.0}}};
+  result.bands = {{{{100.0, 0.0}, {60.0, 1.0}, {0.0, 0.0}, {30.0, 2.0}, {0.0, 0.0}, {10.0, no_value}}, "A"},
+                  {{{200.0, 0.0}, {100.0, 21.0}, {0.0, 0.0}, {60.0, 22.0}, {0.0, 20.0}, {20.0, 20.0}, 20.0}, "B-2"}};
   result.elements = {{20, 4}, {0, 0}};
   result.element_error = {0.5, no_value, 0.75, no_value};
   result.ground_per_ray_m2 = 0.01;

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "files/results/tables/flux_terms.h"
 #include "physics/transport/model/plant_areas.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -15,10 +16,6 @@ namespace sunfleck {
 namespace {
 
 constexpr Estimate zero{0.0, 0.0}, no_figure{no_value, no_value};
-
-constexpr Estimate StepBand::*terms[] = {&StepBand::incident,           &StepBand::absorbed_vegetation,
-                                         &StepBand::absorbed_structure, &StepBand::absorbed_soil,
-                                         &StepBand::reflected,          &StepBand::transmitted};
 
 constexpr Estimate SensorReading::*parts[] = {&SensorReading::direct, &SensorReading::sky, &SensorReading::scattered,
                                               &SensorReading::total};
@@ -38,22 +35,22 @@ struct Sum {
 
 // Sums of the fluxes of a band over steps or dates.
 struct BandSum {
-  std::array<Sum, std::size(terms)> of_terms;
+  std::array<Sum, flux_terms.size()> of_terms;
   double unshot = 0.0;
 
   // `shared_half_width(term)` returns the error of a flux that was simulated together with others; nothing for one by itself. What
   // arrived cannot be unshot.
   template <class SharedHalfWidth>
-  void add(const StepBand& band, double length_s, const SharedHalfWidth& shared_half_width) {
+  void add(const BandFluxes& band, double length_s, const SharedHalfWidth& shared_half_width) {
     unshot += band.unshot * length_s;
-    for (std::size_t t = 0; t < std::size(terms); ++t) {
-      const Estimate& flux = band.*terms[t];
+    for (std::size_t t = 0; t < flux_terms.size(); ++t) {
+      const Estimate& flux = band.*flux_terms[t].flux;
       of_terms[t].add(flux, t == 0 ? 0.0 : std::min(flux.half_width, band.unshot), length_s, shared_half_width(t));
     }
   }
-  [[nodiscard]] StepBand estimate() const {
-    StepBand sums;
-    for (std::size_t t = 0; t < std::size(terms); ++t) sums.*terms[t] = of_terms[t].estimate();
+  [[nodiscard]] BandFluxes estimate() const {
+    BandFluxes sums;
+    for (std::size_t t = 0; t < flux_terms.size(); ++t) sums.*flux_terms[t].flux = of_terms[t].estimate();
     sums.unshot = unshot;
     return sums;
   }
@@ -92,7 +89,7 @@ struct Sums {
       planes[i].add(light.plane_down[i], 0.0, length_s, shared(light.of_shared.planes, i));
     }
     for (std::size_t b = 0; b < bands.size(); ++b) {
-      const StepBand& band = light.bands[b];
+      const BandFluxes& band = light.bands[b];
       bands[b].add(band, length_s, [&](std::size_t term) { return shared_term(light, b, term); });
       const double absorbed = band.absorbed_vegetation.value + band.absorbed_structure.value + band.absorbed_soil.value;
       const double unshot_share = absorbed > 0.0 ? band.unshot / absorbed : 0.0;
@@ -107,7 +104,7 @@ struct Sums {
     }
   }
 
-  // Returns the error of a term of `terms` for steps that share packets; nothing for others. In an endless canopy the incident flux
+  // Returns the error of a term of flux_terms for steps that share packets; nothing for others. In an endless canopy the incident flux
   // is exact.
   static std::optional<double> shared_term(const StepLight& light, std::size_t band, std::size_t term) {
     if (!light.shares_packets) return std::nullopt;
@@ -174,10 +171,7 @@ std::size_t sensor_points(const RadiationModel& model) {
 
 StepLight step_light(const RadiationModel& model, const RadiationResult& result) {
   StepLight light;
-  for (const BandResult& band : result.bands) {
-    light.bands.push_back({band.incident, band.absorbed_vegetation, band.absorbed_structure, band.absorbed_soil, band.reflected,
-                           band.transmitted, band.unshot});
-  }
+  light.bands.assign(result.bands.begin(), result.bands.end());
   for (const OrganResult& organ : result.organs) {
     light.organ_absorbed.insert(light.organ_absorbed.end(), organ.absorbed.begin(), organ.absorbed.end());
   }
@@ -206,7 +200,7 @@ StepLight no_light(const RadiationModel& model) {
   const std::vector<Estimate>& shaded = leaves_m2 > 0.0 ? dark : no_class;
   SensorReading no_reading;
   for (const auto part : parts) no_reading.*part = zero;
-  StepLight light{std::vector<StepBand>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
+  StepLight light{std::vector<BandFluxes>(bands, {zero, zero, zero, zero, zero, zero, 0.0}),
                   std::vector<Estimate>(model.canopy.organs.size() * bands, zero),
                   no_figure,
                   {zero, {leaves_m2, 0.0}, no_class, shaded, no_class, shaded},
@@ -237,7 +231,7 @@ std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLig
   return sums;
 }
 
-StepBand sum_over_dates(std::span<const DateSums> dates, std::size_t band) {
+BandFluxes sum_over_dates(std::span<const DateSums> dates, std::size_t band) {
   BandSum sum;
   for (const DateSums& date : dates) {
     if (date.steps > 0) sum.add(date.bands[band], 1.0, [](std::size_t) { return std::nullopt; });

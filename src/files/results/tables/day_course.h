@@ -45,20 +45,8 @@ struct StepRange {
 // Returns the course of a single date, so that its tables can be made from the light of its steps alone.
 [[nodiscard]] DayCourse course_of(const DayCourse& course, std::size_t date);
 
-// Fluxes of a step in one band, W m-2 of ground.
-struct StepBand {
-  Estimate incident, absorbed_vegetation, absorbed_structure, absorbed_soil, reflected, transmitted;
-  double unshot = 0.0;  // included in the half-widths, as in BandResult
-
-  template <class Self, class Archive>
-  static void visit(Self& self, Archive& archive) {
-    archive(self.incident, self.absorbed_vegetation, self.absorbed_structure, self.absorbed_soil, self.reflected,
-            self.transmitted, self.unshot);
-  }
-};
-
 struct StepLight {
-  std::vector<StepBand> bands;           // [band]
+  std::vector<BandFluxes> bands;         // [band]
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], W m-2 of the organ's one-sided area
   Estimate sunlit_leaf_fraction;
   ShadeClassResult leaf_classes;
@@ -100,7 +88,7 @@ struct StepLight {
 // measured step by step, and that through planes have no unshot part of their own.
 struct DateSums {
   std::size_t steps = 0;
-  std::vector<StepBand> bands;
+  std::vector<BandFluxes> bands;         // [band], J m-2 of ground
   std::vector<Estimate> organ_absorbed;  // [organ * bands + band], J m-2 of the organ's one-sided area
   std::vector<Estimate> plant_absorbed;  // [plant * bands + band], J of the whole plant
   std::vector<Estimate> kind_absorbed;   // [kind * bands + band], J m-2 of ground
@@ -115,6 +103,6 @@ inline constexpr double per_mega = 1e-6;
 [[nodiscard]] std::vector<DateSums> sum_dates(const DayCourse& course, std::span<const StepLight> lights);
 
 // Returns the sums of a band over all dates, whose random errors are independent as those of separate steps are.
-[[nodiscard]] StepBand sum_over_dates(std::span<const DateSums> dates, std::size_t band);
+[[nodiscard]] BandFluxes sum_over_dates(std::span<const DateSums> dates, std::size_t band);
 
 }  // namespace sunfleck

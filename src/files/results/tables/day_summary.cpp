@@ -1,13 +1,13 @@
 #include "files/results/tables/day_summary.h"
 
 #include "base/text.h"
+#include "files/results/tables/flux_terms.h"
 #include "files/results/tables/summary_parts.h"
 #include "physics/canopy/axes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,14 +15,6 @@ namespace sunfleck {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::array<std::pair<const char*, Estimate StepBand::*>, 6> named_terms = {
-    {{"incident", &StepBand::incident},
-     {"absorbed_vegetation", &StepBand::absorbed_vegetation},
-     {"absorbed_structure", &StepBand::absorbed_structure},
-     {"absorbed_soil", &StepBand::absorbed_soil},
-     {"reflected", &StepBand::reflected},
-     {"transmitted", &StepBand::transmitted}}};
 
 constexpr std::size_t most_reported_dates = 7;
 
@@ -32,10 +24,10 @@ ordered_json date_json(const DaySummary& day, const std::string& name, const Dat
     const Waveband& waveband = day.model.bands[b];
     ordered_json band = {{"name", waveband.name}};
     ordered_json errors;
-    for (const auto& [term, member] : named_terms) {
-      const Estimate sum = (date.bands[b].*member).scaled(per_mega);
-      band[fmt::format("{}_mj_m2", term)] = number_or_null(sum.value);
-      errors[fmt::format("{}_mj_m2", term)] = number_or_null(sum.half_width);
+    for (const FluxTerm& term : flux_terms) {
+      const Estimate sum = (date.bands[b].*term.flux).scaled(per_mega);
+      band[fmt::format("{}_mj_m2", term.name)] = number_or_null(sum.value);
+      errors[fmt::format("{}_mj_m2", term.name)] = number_or_null(sum.half_width);
     }
     if (waveband.umol_per_joule > 0.0) {
       const Estimate photons = date.bands[b].absorbed_vegetation.scaled(per_mega * waveband.umol_per_joule);
@@ -53,12 +45,12 @@ double leaf_area_index(const RadiationModel& model) {
 }
 
 // Returns what arrived in a band and what became of it, MJ m-2; leaves out half-widths of 0.
-std::string sums_line(const std::string& when, const std::string& band, const StepBand& joules) {
+std::string sums_line(const std::string& when, const std::string& band, const BandFluxes& joules) {
   std::string line = fmt::format("  {} {}, MJ m-2", when, band);
   char separator = ':';
-  for (const auto& [term, member] : named_terms) {
-    const Estimate sum = (joules.*member).scaled(per_mega);
-    std::string words = term;
+  for (const FluxTerm& term : flux_terms) {
+    const Estimate sum = (joules.*term.flux).scaled(per_mega);
+    std::string words = term.name;
     std::replace(words.begin(), words.end(), '_', ' ');
     line += fmt::format("{} {} {:.4g}", std::exchange(separator, ','), words, sum.value);
     if (sum.half_width > 0.0) line += fmt::format(" ± {:.2g}", sum.half_width);

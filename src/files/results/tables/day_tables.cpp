@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "files/results/tables/day_receivers.h"
+#include "files/results/tables/flux_terms.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/table_text.h"
 #include "physics/canopy/axes.h"
@@ -76,16 +77,11 @@ Table steps_table(const DayStand& stand, const DayPart& part) {
   table.add({"azimuth_deg", "degree", "azimuth of the sun at the middle of the step, clockwise from north"},
             [&](std::size_t i) { return steps[i].sun.azimuth_rad / degree; });
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const auto add = [&, b](const char* name, const std::string& flux, Estimate StepBand::*term) {
-      table.add({model.bands[b].name + name, "W m-2", flux + " per ground area"},
-                [&, b, term](std::size_t i) { return lights[i].bands[b].*term; });
-    };
-    add("_incident", "incident flux", &StepBand::incident);
-    add("_absorbed_vegetation", "flux absorbed by vegetation", &StepBand::absorbed_vegetation);
-    add("_absorbed_structure", "flux absorbed by structures and lamps", &StepBand::absorbed_structure);
-    add("_absorbed_soil", "flux absorbed by soil", &StepBand::absorbed_soil);
-    add("_reflected", "flux that leaves upwards", &StepBand::reflected);
-    add("_transmitted", "flux that leaves downwards", &StepBand::transmitted);
+    for (const FluxTerm& term : flux_terms) {
+      table.add(
+          {fmt::format("{}_{}", model.bands[b].name, term.name), "W m-2", fmt::format("{} per ground area", term.meaning)},
+          [&](std::size_t i) { return lights[i].bands[b].*term.flux; });
+    }
   }
   table.add({"sunlit_leaf_fraction", "1", "share of the leaf area in direct sun"},
             [&](std::size_t i) { return as_share(lights[i].sunlit_leaf_fraction); });
@@ -111,16 +107,16 @@ Table day_sums_table(const DayStand& stand, const DayPart& part) {
   table.add({"steps", "1", "number of its steps"},
             [&](std::size_t d) { return static_cast<std::uint32_t>(sums[dates[d]].steps); });
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
-    const auto add = [&, b](const std::string& name, const std::string& fate, Estimate StepBand::*term) {
+    const auto add = [&, b](const std::string& name, const std::string& fate, Estimate BandFluxes::*term) {
       add_sum(table, model.bands[b], name, fate + " per ground area",
               [&, b, term](std::size_t d) -> const Estimate& { return sums[dates[d]].bands[b].*term; });
     };
-    add("_incident", "that arrived", &StepBand::incident);
-    add("_absorbed_vegetation", "absorbed by vegetation", &StepBand::absorbed_vegetation);
-    add("_absorbed_structure", "absorbed by structures and lamps", &StepBand::absorbed_structure);
-    add("_absorbed_soil", "absorbed by soil", &StepBand::absorbed_soil);
-    add("_reflected", "that left upwards", &StepBand::reflected);
-    add("_transmitted", "that left downwards", &StepBand::transmitted);
+    add("_incident", "that arrived", &BandFluxes::incident);
+    add("_absorbed_vegetation", "absorbed by vegetation", &BandFluxes::absorbed_vegetation);
+    add("_absorbed_structure", "absorbed by structures and lamps", &BandFluxes::absorbed_structure);
+    add("_absorbed_soil", "absorbed by soil", &BandFluxes::absorbed_soil);
+    add("_reflected", "that left upwards", &BandFluxes::reflected);
+    add("_transmitted", "that left downwards", &BandFluxes::transmitted);
   }
   for (std::size_t b = 0; b < model.bands.size(); ++b) {
     table.add({model.bands[b].name + "_unshot_mj_m2", "MJ m-2", "energy not followed to its end per ground area"},

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "files/results/tables/flux_terms.h"
 #include "physics/canopy/axes.h"
 #include "physics/transport/model/surfaces.h"
 
@@ -222,16 +223,12 @@ Table layers_table(const RadiationModel& model, const RadiationResult& result) {
 Table balance_table(const RadiationResult& result) {
   const std::vector<BandResult>& bands = result.bands;
   Table table{"Bands", "W m-2 of ground", {bands.size()}};
-  const auto add = [&](const char* name, const char* meaning, const auto term) {
-    table.add({name, "W m-2", meaning, in_netcdf | in_arrays}, [&](std::size_t b) { return bands[b].*term; });
+  const auto add = [&](const char* name, const std::string& meaning, const auto flux) {
+    table.add({name, "W m-2", meaning + " per ground area", in_netcdf | in_arrays},
+              [&](std::size_t b) { return bands[b].*flux; });
   };
-  add("incident", "incident flux per ground area", &BandResult::incident);
-  add("absorbed_vegetation", "flux absorbed by vegetation per ground area", &BandResult::absorbed_vegetation);
-  add("absorbed_structure", "flux absorbed by structures and lamps per ground area", &BandResult::absorbed_structure);
-  add("absorbed_soil", "flux absorbed by soil per ground area", &BandResult::absorbed_soil);
-  add("reflected", "flux that leaves upwards per ground area", &BandResult::reflected);
-  add("transmitted", "flux that leaves downwards per ground area", &BandResult::transmitted);
-  add("unshot", "flux not followed to its end per ground area", &BandResult::unshot);
+  for (const FluxTerm& term : flux_terms) add(term.name, term.meaning, term.flux);
+  add("unshot", "flux not followed to its end", &BandResult::unshot);
   return table;
 }
 

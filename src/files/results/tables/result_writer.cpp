@@ -1,6 +1,7 @@
 #include "files/results/tables/result_writer.h"
 
 #include "base/units.h"
+#include "files/results/tables/flux_terms.h"
 #include "files/results/tables/judged_figure.h"
 #include "files/results/tables/summary_parts.h"
 #include "files/results/tables/work_settings.h"
@@ -15,46 +16,40 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// Adds the band's fluxes, each multiplied by `factor`.
+void add_fluxes(ordered_json& to, const BandFluxes& band, double factor) {
+  for (const FluxTerm& term : flux_terms) to[term.name] = (band.*term.flux).value * factor;
+}
+
 // Returns the half-widths of the band's fluxes, each multiplied by `factor`.
-ordered_json half_widths_json(const BandResult& band, double factor) {
-  return {{"incident", number_or_null(band.incident.half_width * factor)},
-          {"absorbed_vegetation", number_or_null(band.absorbed_vegetation.half_width * factor)},
-          {"absorbed_structure", number_or_null(band.absorbed_structure.half_width * factor)},
-          {"absorbed_soil", number_or_null(band.absorbed_soil.half_width * factor)},
-          {"reflected", number_or_null(band.reflected.half_width * factor)},
-          {"transmitted", number_or_null(band.transmitted.half_width * factor)}};
+ordered_json half_widths_json(const BandFluxes& band, double factor) {
+  ordered_json half_widths;
+  for (const FluxTerm& term : flux_terms) half_widths[term.name] = number_or_null((band.*term.flux).half_width * factor);
+  return half_widths;
 }
 
 ordered_json band_json(const BandResult& band) {
-  return {{"name", band.name},
-          {"incident", band.incident.value},
-          {"absorbed_vegetation", band.absorbed_vegetation.value},
-          {"absorbed_structure", band.absorbed_structure.value},
-          {"absorbed_soil", band.absorbed_soil.value},
-          {"reflected", band.reflected.value},
-          {"transmitted", band.transmitted.value},
-          {"unshot", band.unshot},
-          {"residual", band.ledger.residual()},
-          {"quanta",
-           {{"incident", band.ledger.incident},
-            {"absorbed_vegetation", band.ledger.absorbed_vegetation},
-            {"absorbed_structure", band.ledger.absorbed_structure},
-            {"absorbed_soil", band.ledger.absorbed_soil},
-            {"reflected", band.ledger.reflected},
-            {"transmitted", band.ledger.transmitted},
-            {"unshot", band.ledger.unshot}}},
-          {"error", half_widths_json(band, 1.0)}};
+  ordered_json json = {{"name", band.name}};
+  add_fluxes(json, band, 1.0);
+  json["unshot"] = band.unshot;
+  json["residual"] = band.ledger.residual();
+  json["quanta"] = {{"incident", band.ledger.incident},
+                    {"absorbed_vegetation", band.ledger.absorbed_vegetation},
+                    {"absorbed_structure", band.ledger.absorbed_structure},
+                    {"absorbed_soil", band.ledger.absorbed_soil},
+                    {"reflected", band.ledger.reflected},
+                    {"transmitted", band.ledger.transmitted},
+                    {"unshot", band.ledger.unshot}};
+  json["error"] = half_widths_json(band, 1.0);
+  return json;
 }
 
 // Returns the same fluxes in photons, umol m-2 s-1 of ground, for bands with umol_per_joule.
 ordered_json photons_json(const BandResult& band, double umol_per_joule) {
-  return {{"incident", band.incident.value * umol_per_joule},
-          {"absorbed_vegetation", band.absorbed_vegetation.value * umol_per_joule},
-          {"absorbed_structure", band.absorbed_structure.value * umol_per_joule},
-          {"absorbed_soil", band.absorbed_soil.value * umol_per_joule},
-          {"reflected", band.reflected.value * umol_per_joule},
-          {"transmitted", band.transmitted.value * umol_per_joule},
-          {"error", half_widths_json(band, umol_per_joule)}};
+  ordered_json json;
+  add_fluxes(json, band, umol_per_joule);
+  json["error"] = half_widths_json(band, umol_per_joule);
+  return json;
 }
 
 ordered_json bands_json(const RadiationModel& model, const RadiationResult& result) {

@@ -41,16 +41,27 @@ struct FluxLedger {
   }
 };
 
-// The flux balance of one band, W m-2 of ground. The half-widths of all but the incident flux include the unshot flux, which could
-// still end up in any of the five other terms. That of the incident flux is 0 on an endless canopy; on an isolated stand rays count
-// what arrives.
-struct BandResult {
+// The fluxes of one band, W m-2 of ground. The half-widths of all but the incident flux include the unshot flux, which could still
+// end up in any of the five other terms. That of the incident flux is 0 on an endless canopy; on an isolated stand rays count what
+// arrives.
+struct BandFluxes {
+  Estimate incident{0.0, 0.0};
+  Estimate absorbed_vegetation;
+  Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
+  Estimate absorbed_soil, reflected, transmitted;
+  double unshot = 0.0;
+
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive(self.incident, self.absorbed_vegetation, self.absorbed_structure, self.absorbed_soil, self.reflected,
+            self.transmitted, self.unshot);
+  }
+};
+
+// The flux balance of one band.
+struct BandResult : BandFluxes {
   std::string name;
   FluxLedger ledger;
-  Estimate incident{0.0, 0.0};
-  double unshot = 0.0;
-  Estimate absorbed_vegetation, absorbed_soil, reflected, transmitted;
-  Estimate absorbed_structure{0.0, 0.0};  // by structures and lamps; exactly 0 without any
 };
 
 // The sunlit and the shaded part of an organ, of the leaves in a layer, or of all leaves; one-sided areas. Triangles that no

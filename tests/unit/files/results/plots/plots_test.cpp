@@ -431,7 +431,7 @@ DayStep step_at(int day, double hour) {
 }
 
 StepLight light(double w_m2) {
-  const StepBand band{
+  const BandFluxes band{
       {w_m2, 0.0}, {0.7 * w_m2, 0.05 * w_m2}, {0.0, 0.0}, {0.2 * w_m2, 0.02 * w_m2}, {0.1 * w_m2, 0.01 * w_m2}, {}, 0.0};
   return {{band}, {}, {w_m2 > 0.0 ? 0.4 : 0.0, w_m2 > 0.0 ? 0.05 : 0.0}};
 }

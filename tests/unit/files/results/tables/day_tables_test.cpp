@@ -51,13 +51,13 @@ std::string text_of(Table (*table)(const DayStand&, const DayPart&), const Radia
 }
 
 StepLight light(double w_m2, double half_width, double unshot) {
-  const StepBand band{{w_m2, 0.0},
-                      {0.5 * w_m2, half_width},
-                      {0.0625 * w_m2, half_width},
-                      {0.25 * w_m2, half_width},
-                      {0.125 * w_m2, half_width},
-                      {0.0625 * w_m2, half_width},
-                      unshot};
+  const BandFluxes band{{w_m2, 0.0},
+                        {0.5 * w_m2, half_width},
+                        {0.0625 * w_m2, half_width},
+                        {0.25 * w_m2, half_width},
+                        {0.125 * w_m2, half_width},
+                        {0.0625 * w_m2, half_width},
+                        unshot};
   StepLight step{{band, band}, {{w_m2, half_width}, {2.0 * w_m2, half_width}, {0.0, 0.0}, {3.0 * w_m2, no_value}}, {0.5, 0.01}};
   step.kind_absorbed.resize(4, {{0.0, 0.0}});
   return step;
@@ -71,7 +71,7 @@ TEST(DayTables, LocalTimeCarriesItsOffset) {
 
 TEST(DayTables, IncidentFluxOfAnIsolatedPlotHasAnError) {
   RadiationResult result;
-  result.bands = {{"A", {}, {100.0, 0.0}, 1.0, {60.0, 1.5}, {30.0, 2.0}, {0.0, 1.0}, {9.0, 3.0}}};
+  result.bands = {{{{100.0, 0.0}, {60.0, 1.5}, {0.0, 0.0}, {30.0, 2.0}, {0.0, 1.0}, {9.0, 3.0}, 1.0}, "A"}};
   const StepLight endless = step_light(two_organs(), result);
   EXPECT_EQ(endless.bands[0].incident.value, 100.0);
   EXPECT_EQ(endless.bands[0].incident.half_width, 0.0);
@@ -93,7 +93,7 @@ TEST(DayTables, RandomErrorsAddAsSquaresAndUnshotFluxAsItIs) {
   const std::vector<DateSums> dates = sum_dates(three_steps(), lights);
   ASSERT_EQ(dates.size(), 2U);
   EXPECT_EQ(dates[0].steps, 2U);
-  const StepBand& band = dates[0].bands[1];
+  const BandFluxes& band = dates[0].bands[1];
   EXPECT_EQ(band.incident.value, 100.0 * 1800.0 + 200.0 * 600.0);
   EXPECT_EQ(band.incident.half_width, 0.0);
   EXPECT_EQ(band.absorbed_soil.value, 0.25 * band.incident.value);
@@ -131,7 +131,7 @@ TEST(DayTables, ErrorsOfStepsThatSharePacketsAreThoseOfTheirSum) {
 TEST(DayTables, DatesAddUpLikeSteps) {
   const std::vector<StepLight> lights{light(100.0, 4.0, 1.0), light(200.0, 4.0, 1.0), light(10.0, 5.0, 1.0)};
   const std::vector<DateSums> dates = sum_dates(three_steps(), lights);
-  const StepBand all = sum_over_dates(dates, 1);
+  const BandFluxes all = sum_over_dates(dates, 1);
   EXPECT_EQ(all.absorbed_soil.value, dates[0].bands[1].absorbed_soil.value + dates[1].bands[1].absorbed_soil.value);
   const double first = std::hypot(3.0 * 1800.0, 3.0 * 600.0), second = 4.0 * 600.0;
   EXPECT_NEAR(all.absorbed_soil.half_width, std::hypot(first, second) + 3000.0, 1e-8);
@@ -272,8 +272,7 @@ TEST(OrganKinds, AreOrderedByRoleAndEndWithTheSoil) {
 // Organs of 1 m2 on 10 m2 of ground; 2 of 1000 quanta absorbed are unshot.
 RadiationResult result_of_four(double vegetation_half_width) {
   RadiationResult result;
-  BandResult band{"A", {}, {100.0, 0.0}, 0.1, {30.0, vegetation_half_width}, {40.0, 2.5}, {20.0, 1.0}};
-  band.absorbed_structure = {10.0, 0.7};
+  BandResult band{{{100.0, 0.0}, {30.0, vegetation_half_width}, {10.0, 0.7}, {40.0, 2.5}, {20.0, 1.0}, {}, 0.1}, "A"};
   band.ledger.absorbed_vegetation = 1000;
   band.ledger.unshot = 2;
   result.bands = {band};
