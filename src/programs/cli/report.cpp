@@ -64,28 +64,25 @@ std::string balance_report(const RunRecord& record, const RadiationModel& model,
     if (!std::isnan(sunlit.value)) text += fmt::format("sunlit leaf fraction {}, ", with_error(sunlit));
     text += fmt::format("sunflecks on the ground {}\n", with_error(result.ground_sunfleck_ratio));
   }
-  const auto errors = [](const std::optional<double>& error, const std::optional<double>& bound) {
+  const auto errors = [](const PassError& of) {
     std::string line;
-    if (error) line += fmt::format(", relative error {:.2g}", *error);
-    if (bound) line += fmt::format(" (bound {:.2g})", *bound);
-    return line;
+    if (of.relative_error) line += fmt::format(", relative error {:.2g}", *of.relative_error);
+    if (of.bound) line += fmt::format(" (bound {:.2g})", *of.bound);
+    return line + fmt::format(", {:.2f} s\n", of.seconds);
   };
   if (result.direct.rays > 0) {
-    text += fmt::format("  direct: {} rays in {} replicates, spacing {:.3g} mm{}, {:.2f} s\n", result.direct.rays,
-                        result.direct.replicates, result.direct.grid_m * 1e3,
-                        errors(result.direct.relative_error, result.direct.bound), result.direct.seconds);
+    text += fmt::format("  direct: {} rays in {} replicates, spacing {:.3g} mm{}", result.direct.rays, result.direct.replicates,
+                        result.direct.grid_m * 1e3, errors(result.direct));
   }
   if (result.indirect.packets + result.indirect.sky_rays > 0) {
     const std::string sky =
         result.indirect.sky_rays > 0 ? fmt::format("{} rays from the sky, ", result.indirect.sky_rays) : std::string();
-    text +=
-        fmt::format("  indirect: {}{} packets in {} rounds{}, {:.2f} s\n", sky, result.indirect.packets, result.indirect.rounds,
-                    errors(result.indirect.relative_error, result.indirect.bound), result.indirect.seconds);
+    text += fmt::format("  indirect: {}{} packets in {} rounds{}", sky, result.indirect.packets, result.indirect.rounds,
+                        errors(result.indirect));
   }
   if (result.of_sensors.bound) {
-    text +=
-        fmt::format("  sensors: {} replicates of {} rays{}, {:.2f} s\n", result.of_sensors.replicates, result.of_sensors.rays,
-                    errors(result.of_sensors.relative_error, result.of_sensors.bound), result.of_sensors.seconds);
+    text += fmt::format("  sensors: {} replicates of {} rays{}", result.of_sensors.replicates, result.of_sensors.rays,
+                        errors(result.of_sensors));
   }
   for (const PlaneResult& plane : result.planes) {
     text += fmt::format("  plane at {:.3f} m:", plane.height_m);

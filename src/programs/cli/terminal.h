@@ -44,11 +44,6 @@ void start_at_terminal(const RunOptions& options);
 // becomes of the results. Prints nothing if a run did all its work.
 void warn_if_short(const SimulatedScene& simulated, const SolveSettings& settings, std::string_view outcome);
 
-// Returns the part of that line about a pass: "direct error 0.0037 of 0.001 (beam on vegetation)". Empty for a pass that
-// reached its bound, has none, or has no light.
-[[nodiscard]] std::string shortfall(const char* pass, const std::optional<double>& error, const std::optional<double>& bound,
-                                    const std::optional<JudgedFigure>& judged, const RadiationModel& model);
-
 // Warns if triangles are exported whose light typically is known to no better than 20 %.
 void warn_of_coarse_triangles(const SimulatedScene& simulated, const std::vector<std::string>& exports);
 

@@ -123,9 +123,13 @@ ordered_json settings_json(const RunRecord& record) {
   return settings;
 }
 
-ordered_json judged_json(const std::optional<JudgedFigure>& judged, const RadiationModel& model) {
-  if (!judged) return nullptr;
-  return figure_name(*judged, model);
+// Returns the work of a pass with its error and time.
+ordered_json pass_json(ordered_json work, const PassError& error, const RadiationModel& model) {
+  work["relative_error"] = value_or_null(error.relative_error);
+  work["judged"] = error.judged ? ordered_json(figure_name(*error.judged, model)) : ordered_json(nullptr);
+  work["bound"] = value_or_null(error.bound);
+  work["seconds"] = error.seconds;
+  return work;
 }
 
 const char* stop_name(StopReason stop) {
@@ -171,22 +175,13 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
       {"planes", planes_json(result)},
       {"lost_rays", result.lost_rays},
       {"direct",
-       {{"rays", result.direct.rays},
-        {"replicates", result.direct.replicates},
-        {"grid_m", result.direct.grid_m},
-        {"relative_error", value_or_null(result.direct.relative_error)},
-        {"judged", judged_json(result.direct.judged, model)},
-        {"bound", value_or_null(result.direct.bound)},
-        {"seconds", result.direct.seconds}}},
-      {"indirect",
-       {{"sky_rays", result.indirect.sky_rays},
-        {"packets", result.indirect.packets},
-        {"rounds", result.indirect.rounds},
-        {"first_round_packets", static_cast<std::uint64_t>(result.work.packets)},
-        {"relative_error", value_or_null(result.indirect.relative_error)},
-        {"judged", judged_json(result.indirect.judged, model)},
-        {"bound", value_or_null(result.indirect.bound)},
-        {"seconds", result.indirect.seconds}}},
+       pass_json({{"rays", result.direct.rays}, {"replicates", result.direct.replicates}, {"grid_m", result.direct.grid_m}},
+                 result.direct, model)},
+      {"indirect", pass_json({{"sky_rays", result.indirect.sky_rays},
+                              {"packets", result.indirect.packets},
+                              {"rounds", result.indirect.rounds},
+                              {"first_round_packets", static_cast<std::uint64_t>(result.work.packets)}},
+                             result.indirect, model)},
       {"seconds",
        {{"load", record.seconds.load},
         {"bvh", record.seconds.bvh},
@@ -196,12 +191,8 @@ std::string summary_json(const RunRecord& record, const RadiationModel& model, c
         {"write", record.seconds.write},
         {"total", record.seconds.total}}}};
   if (!result.sensors.empty()) {
-    summary["sensors"] = {{"rays", result.of_sensors.rays},
-                          {"replicates", result.of_sensors.replicates},
-                          {"relative_error", value_or_null(result.of_sensors.relative_error)},
-                          {"judged", judged_json(result.of_sensors.judged, model)},
-                          {"bound", value_or_null(result.of_sensors.bound)},
-                          {"seconds", result.of_sensors.seconds}};
+    summary["sensors"] =
+        pass_json({{"rays", result.of_sensors.rays}, {"replicates", result.of_sensors.replicates}}, result.of_sensors, model);
   }
   if (!record.not_written.empty()) summary["not_written"] = record.not_written;
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -183,33 +183,30 @@ struct JudgedFigure {
   std::optional<std::size_t> band;  // empty: the beam's landings, which are the same in all bands
 };
 
-struct PassSummary {
-  std::uint64_t rays = 0;
-  std::size_t replicates = 0;
-  double grid_m = 0.0;                   // square root of plot area over rays
-  std::optional<double> relative_error;  // error that is compared with the bound
-  std::optional<JudgedFigure> judged;    // figure with that error, the largest of all; empty without a beam
+// The error of a pass and the time it took.
+struct PassError {
+  std::optional<double> relative_error;  // error that is compared with the bound, the largest of all figures
+  std::optional<JudgedFigure> judged;    // figure with that error; empty without a beam
   std::optional<double> bound;           // empty if the work was fixed
   double seconds = 0.0;
 };
 
-struct IndirectSummary {
+struct PassSummary : PassError {
+  std::uint64_t rays = 0;
+  std::size_t replicates = 0;
+  double grid_m = 0.0;  // square root of plot area over rays
+};
+
+struct IndirectSummary : PassError {
   std::uint64_t sky_rays = 0;
   std::uint64_t packets = 0;
   std::uint64_t rounds = 0;  // over all replicates
-  std::optional<double> relative_error;
-  std::optional<JudgedFigure> judged;
-  std::optional<double> bound;
-  double seconds = 0.0;
 };
 
-struct SensorSummary {
-  std::uint32_t rays = 0;                // for sky light and for scattered light each, from every point in every replicate
-  std::size_t replicates = 0;            // of the sensor that has most
-  std::optional<double> relative_error;  // largest of all sensors: of the total, for a line of the mean of its points
-  std::optional<JudgedFigure> judged;    // sensor and band with that error
-  std::optional<double> bound;           // empty if the number of replicates was fixed
-  double seconds = 0.0;
+// The error is that of a sensor's total, for a line of the mean of its points.
+struct SensorSummary : PassError {
+  std::uint32_t rays = 0;      // for sky light and for scattered light each, from every point in every replicate
+  std::size_t replicates = 0;  // of the sensor that has most
 };
 
 enum class StopReason { bound_reached, work_done, rays_spent, replicates_spent, time_spent, interrupted };
