@@ -33,39 +33,40 @@ constexpr int type_number<double> = NC_DOUBLE;
 
 NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)) {
   constexpr std::size_t first_bytes = std::size_t{1} << 20;
-  check(netcdf().create_mem(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
+  check(FROM_NETCDF(nc_create_mem)(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
 }
 
 NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file) : name_(std::move(name)), on_disk_(true) {
   errno = 0;
-  check(netcdf().create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
+  check(FROM_NETCDF(nc_create)(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
 }
 
 NetcdfFile::~NetcdfFile() {
-  if (file_ >= 0 && !broken_) netcdf().abort(file_);
+  if (file_ >= 0 && !broken_) FROM_NETCDF(nc_abort)(file_);
 }
 
 void NetcdfFile::check(int status, std::string_view what) {
   if (status == NC_NOERR) return;
   const int reason = errno;
   if (!std::exchange(broken_, true)) leave_before_libraries();
-  if (!on_disk_) throw_failure(fmt::format("{}: {}", name_, what), netcdf().strerror(status), "export vtp or csv");
+  if (!on_disk_) throw_failure(fmt::format("{}: {}", name_, what), FROM_NETCDF(nc_strerror)(status), "export vtp or csv");
   // HDF5, below netCDF, reports only that a write failed; errno still holds the reason.
-  throw_write_failure(fmt::format("{}: {}", name_, what), status == NC_EHDFERR ? reason : 0, netcdf().strerror(status));
+  throw_write_failure(fmt::format("{}: {}", name_, what), status == NC_EHDFERR ? reason : 0, FROM_NETCDF(nc_strerror)(status));
 }
 
 int NetcdfFile::dimension(const std::string& name, std::size_t size) {
   int number = -1;
-  check(netcdf().def_dim(file_, name.c_str(), size, &number), fmt::format("dimension {}", name));
+  check(FROM_NETCDF(nc_def_dim)(file_, name.c_str(), size, &number), fmt::format("dimension {}", name));
   return number;
 }
 
 int NetcdfFile::define(const std::string& name, int type, const std::vector<int>& dimensions) {
   const std::string what = fmt::format("variable {}", name);
   int number = -1;
-  check(netcdf().def_var(file_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &number), what);
+  check(FROM_NETCDF(nc_def_var)(file_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &number),
+        what);
   constexpr int deflate_level = 2;
-  if (!dimensions.empty()) check(netcdf().def_var_deflate(file_, number, 1, 1, deflate_level), what);
+  if (!dimensions.empty()) check(FROM_NETCDF(nc_def_var_deflate)(file_, number, 1, 1, deflate_level), what);
   return number;
 }
 
@@ -75,7 +76,7 @@ int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimens
   const int number = define(name, type_number<T>, dimensions);
   if constexpr (std::is_floating_point_v<T>) {
     const T missing = std::numeric_limits<T>::quiet_NaN();
-    check(netcdf().def_var_fill(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
+    check(FROM_NETCDF(nc_def_var_fill)(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
   }
   if (!meaning.empty()) attribute(number, "long_name", meaning);
   if (!units.empty()) attribute(number, "units", units);
@@ -83,16 +84,17 @@ int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimens
 }
 
 void NetcdfFile::attribute(int variable, const std::string& name, std::string_view text) {
-  check(netcdf().put_att_text(file_, variable, name.c_str(), text.size(), text.data()), fmt::format("attribute {}", name));
+  check(FROM_NETCDF(nc_put_att_text)(file_, variable, name.c_str(), text.size(), text.data()),
+        fmt::format("attribute {}", name));
 }
 
 void NetcdfFile::attribute(int variable, const std::string& name, std::span<const std::int32_t> numbers) {
-  check(netcdf().put_att_int(file_, variable, name.c_str(), NC_INT, numbers.size(), numbers.data()),
+  check(FROM_NETCDF(nc_put_att_int)(file_, variable, name.c_str(), NC_INT, numbers.size(), numbers.data()),
         fmt::format("attribute {}", name));
 }
 
 void NetcdfFile::put_all(int variable, const void* values) {
-  check(netcdf().put_var(file_, variable, values), "its values cannot be written");
+  check(FROM_NETCDF(nc_put_var)(file_, variable, values), "its values cannot be written");
 }
 
 int NetcdfFile::variable(const Column& column, const std::vector<int>& dimensions) {
@@ -132,12 +134,12 @@ int NetcdfFile::add(const Column& column, const std::vector<int>& dimensions) {
 
 std::vector<std::size_t> NetcdfFile::shape_of(int variable) {
   int count = 0;
-  check(netcdf().inq_varndims(file_, variable, &count), "its dimensions cannot be read");
+  check(FROM_NETCDF(nc_inq_varndims)(file_, variable, &count), "its dimensions cannot be read");
   std::vector<int> dimensions(static_cast<std::size_t>(count));
-  check(netcdf().inq_vardimid(file_, variable, dimensions.data()), "its dimensions cannot be read");
+  check(FROM_NETCDF(nc_inq_vardimid)(file_, variable, dimensions.data()), "its dimensions cannot be read");
   std::vector<std::size_t> shape(dimensions.size());
   for (std::size_t i = 0; i < shape.size(); ++i)
-    check(netcdf().inq_dimlen(file_, dimensions[i], &shape[i]), "its dimensions cannot be read");
+    check(FROM_NETCDF(nc_inq_dimlen)(file_, dimensions[i], &shape[i]), "its dimensions cannot be read");
   return shape;
 }
 
@@ -149,10 +151,10 @@ void NetcdfFile::store_by_rows(int variable, std::size_t rows_at_once) {
     chunk[i] = std::clamp<std::size_t>(chunk[i], 1, std::max<std::size_t>(1, longest_chunk / values));
     values *= chunk[i];
   }
-  check(netcdf().def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()), "its layout cannot be set");
+  check(FROM_NETCDF(nc_def_var_chunking)(file_, variable, NC_CHUNKED, chunk.data()), "its layout cannot be set");
   // put_rows writes whole chunks, so that there is no use in keeping many of them.
   constexpr std::size_t cache_bytes = std::size_t{1} << 20, slots = 521;
-  check(netcdf().set_var_chunk_cache(file_, variable, cache_bytes, slots, 1.0F), "its layout cannot be set");
+  check(FROM_NETCDF(nc_set_var_chunk_cache)(file_, variable, cache_bytes, slots, 1.0F), "its layout cannot be set");
 }
 
 void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std::span<const float> values) {
@@ -161,7 +163,7 @@ void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std
   std::vector<std::size_t> begin(count.size());
   begin.at(0) = first;
   count.at(0) = rows;
-  check(netcdf().put_vara(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
+  check(FROM_NETCDF(nc_put_vara)(file_, variable, begin.data(), count.data(), values.data()), "its values cannot be written");
 }
 
 void NetcdfFile::names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning) {
@@ -181,14 +183,14 @@ void NetcdfFile::names(const std::string& name, int dimension, std::span<const s
 
 std::string NetcdfFile::take() {
   NC_memio memory{};
-  check(netcdf().close_memio(std::exchange(file_, -1), &memory), "it cannot be finished");
+  check(FROM_NETCDF(nc_close_memio)(std::exchange(file_, -1), &memory), "it cannot be finished");
   const std::unique_ptr<void, decltype(&std::free)> owner(memory.memory, &std::free);
   return {static_cast<const char*>(memory.memory), memory.size};
 }
 
 void NetcdfFile::finish() {
-  check(netcdf().sync(file_), "it cannot be finished");  // so that closing writes nothing more
-  check(netcdf().close(std::exchange(file_, -1)), "it cannot be finished");
+  check(FROM_NETCDF(nc_sync)(file_), "it cannot be finished");  // so that closing writes nothing more
+  check(FROM_NETCDF(nc_close)(std::exchange(file_, -1)), "it cannot be finished");
 }
 
 template int NetcdfFile::variable<std::int32_t>(const std::string&, const std::vector<int>&, std::string_view,

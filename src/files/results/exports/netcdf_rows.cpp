@@ -34,18 +34,18 @@ NetcdfRows::NetcdfRows(std::string name, const std::filesystem::path& file, std:
                        std::size_t columns)
     : name_(std::move(name)), columns_(columns), chunk_(std::min(columns, NetcdfFile::longest_chunk)) {
   errno = 0;
-  file_ = hdf5().file_open(file.c_str(), read_and_write, H5P_DEFAULT);
+  file_ = FROM_NETCDF(H5Fopen)(file.c_str(), read_and_write, H5P_DEFAULT);
   check(file_ >= 0);
   for (const std::string& variable : variables) {
-    variables_.push_back(hdf5().dataset_open(file_, variable.c_str(), H5P_DEFAULT));
+    variables_.push_back(FROM_NETCDF(H5Dopen2)(file_, variable.c_str(), H5P_DEFAULT));
     check(variables_.back() >= 0);
   }
 }
 
 NetcdfRows::~NetcdfRows() {
   if (file_ < 0 || broken_) return;
-  for (const std::int64_t variable : variables_) hdf5().dataset_close(variable);
-  hdf5().file_close(file_);
+  for (const std::int64_t variable : variables_) FROM_NETCDF(H5Dclose)(variable);
+  FROM_NETCDF(H5Fclose)(file_);
 }
 
 void NetcdfRows::put(std::size_t row, std::span<const float> values) {
@@ -59,17 +59,17 @@ void NetcdfRows::put(std::size_t row, std::span<const float> values) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::array<hsize_t, 2> begin = {row, k % chunks * chunk_};
     errno = 0;
-    check(hdf5().dataset_write_chunk(variables_[k / chunks], H5P_DEFAULT, 0, begin.data(), all[k].size(), all[k].data()) >= 0);
+    check(FROM_NETCDF(H5Dwrite_chunk)(variables_[k / chunks], H5P_DEFAULT, 0, begin.data(), all[k].size(), all[k].data()) >= 0);
   }
 }
 
 void NetcdfRows::finish() {
   for (const std::int64_t variable : std::exchange(variables_, {})) {
     errno = 0;
-    check(hdf5().dataset_close(variable) >= 0);
+    check(FROM_NETCDF(H5Dclose)(variable) >= 0);
   }
   errno = 0;
-  check(hdf5().file_close(std::exchange(file_, -1)) >= 0);
+  check(FROM_NETCDF(H5Fclose)(std::exchange(file_, -1)) >= 0);
 }
 
 void NetcdfRows::check(bool good) {
