@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace sunfleck {
 
@@ -41,6 +42,15 @@ inline void expect_three_parts(const std::string& message) {
   ASSERT_NE(close, std::string::npos) << message;
   EXPECT_LT(open + 2, close) << message;
   EXPECT_LT(close + 3, message.size()) << message;
+}
+
+// Expects the work to be refused in three parts with these words in them, and returns the message.
+inline std::string expect_refusal(const std::function<void()>& work, std::string_view words = {},
+                                  ErrorKind kind = ErrorKind::input) {
+  const std::string message = refusal_of(work, kind);
+  expect_three_parts(message);
+  EXPECT_NE(message.find(words), std::string::npos) << message;
+  return message;
 }
 
 }  // namespace sunfleck

@@ -148,6 +148,18 @@ inline void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+inline std::size_t line_of(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.find(mark);
+  EXPECT_NE(at, std::string::npos) << mark;
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
 // Gives each test a folder with plates.obj and station.csv in it.
 class SceneFolder : public ::testing::Test {
  protected:
@@ -160,20 +172,15 @@ class SceneFolder : public ::testing::Test {
   [[nodiscard]] Scene read(const std::string& text, const SceneAccess& access = {}) const {
     return read_scene(folder_.write("scene.toml", text), access);
   }
+  // Expects the text to be refused for that key in the line of `mark`, in words that include the hint.
+  void expect_refused(const std::string& text, const std::string& mark, const std::string& key, const std::string& hint) const {
+    SCOPED_TRACE(text);
+    const std::string message = expect_refusal([&] { static_cast<void>(read(text)); }, hint);
+    const std::string place = file().string() + ":" + std::to_string(line_of(text, mark)) + ": " + key;
+    EXPECT_EQ(message.substr(0, place.size()), place) << message;
+  }
 
   TempFolder folder_;
 };
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
-inline std::size_t line_of(const std::string& text, const std::string& mark) {
-  const std::size_t at = text.find(mark);
-  EXPECT_NE(at, std::string::npos) << mark;
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
 
 }  // namespace sunfleck

@@ -8,7 +8,6 @@
 #include "physics/canopy/axes.h"
 
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace sunfleck {

@@ -27,18 +27,7 @@ std::string epw_of_one_value() {
   return text;
 }
 
-class SceneSky : public SceneFolder {
- protected:
-  void expect_refused(const std::string& text, const std::string& mark, const std::string& key, const std::string& hint) const {
-    SCOPED_TRACE(text);
-    const auto message = message_of([&] { static_cast<void>(read(text)); });
-    ASSERT_TRUE(message);
-    expect_three_parts(*message);
-    const std::string place = fmt::format("{}:{}: {}", file().string(), line_of(text, mark), key);
-    EXPECT_EQ(message->substr(0, place.size()), place) << *message;
-    EXPECT_NE(message->find(hint), std::string::npos) << *message;
-  }
-};
+using SceneSky = SceneFolder;
 
 TEST_F(SceneSky, NamesItsModel) {
   const auto sky = [&](const std::string& lines) {
@@ -87,9 +76,7 @@ TEST_F(SceneSky, RefusesWhatIsNoSky) {
   EXPECT_EQ(read(outside, {.allow_outside = true}).model.sky->lights.size(), 1U);
   std::filesystem::remove(folder_.path().parent_path() / "sunfleck_outside.light");
   write(folder_ / "bad.light", "1 0 0 -1\n1 0 0 1\n");
-  const auto message = message_of([&] { static_cast<void>(read(head + "model = \"lights\"\nfile = \"bad.light\"\n")); });
-  ASSERT_TRUE(message);
-  EXPECT_NE(message->find("bad.light:2: "), std::string::npos) << *message;
+  expect_refusal([&] { static_cast<void>(read(head + "model = \"lights\"\nfile = \"bad.light\"\n")); }, "bad.light:2: ");
 }
 
 TEST_F(SceneSky, SomeSkiesNeedASun) {
@@ -214,11 +201,9 @@ TEST_F(SceneSky, RefusesWhatIsNoWeather) {
 TEST_F(SceneSky, RefusesWeatherThatDoesNotHoldTheMoment) {
   const std::string text = plot_table + moment_table + uniform + par_table + "[weather]\nfile = \"station.csv\"\n";
   const std::string late = replaced(text, "T10:10", "T10:30");
-  const auto message = message_of([&] { static_cast<void>(read(late)); });
-  ASSERT_TRUE(message);
-  expect_three_parts(*message);
-  EXPECT_TRUE(message->starts_with("weather at 2002-08-08T10:30:00+08:00 (station.csv covers 2002-08-08T10:00:00+08:00 to "))
-      << *message;
+  const std::string message = expect_refusal([&] { static_cast<void>(read(late)); });
+  EXPECT_TRUE(message.starts_with("weather at 2002-08-08T10:30:00+08:00 (station.csv covers 2002-08-08T10:00:00+08:00 to "))
+      << message;
   // For a day the scene's own moment does not matter.
   EXPECT_FALSE(message_of([&] { static_cast<void>(read(late, {.purpose = ScenePurpose::day})); }));
 }
