@@ -6,6 +6,7 @@
 #include "files/results/exports/netcdf_file.h"
 #include "files/results/exports/netcdf_rows.h"
 #include "files/results/tables/result_writer.h"
+#include "regression/read_back.h"
 #include "support/export_models.h"
 #include "support/temp_folder.h"
 
@@ -14,9 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -26,16 +24,6 @@ namespace {
 using nlohmann::json;
 using test::awkward_name;
 using test::awkward_record;
-
-// Returns what a program prints to standard output; its exit status must be 0.
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), [](std::FILE*) { return 0; });
-  std::string text;
-  std::array<char, 4096> piece{};
-  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), got);
-  EXPECT_EQ(::pclose(pipe.get()), 0) << command << '\n' << text;
-  return text;
-}
 
 // A result whose error bars were requested.
 struct Simulated {
@@ -61,10 +49,7 @@ class ExportReadBack : public ::testing::Test {
     write_export(kind, folder_.path(), awkward_record(), model, result, test::grey_colours(model.canopy.size()));
   }
   [[nodiscard]] json read(ExportKind kind) const {
-    const std::string script = script_of(kind);
-    json found = json::parse(output_of(script + " '" + (folder_ / export_file(kind)).string() + "'"), nullptr, false);
-    EXPECT_FALSE(found.is_discarded()) << "python3-vtk9, python3-meshio, python3-netcdf4 and python3-xarray must be installed";
-    return found;
+    return regression::read_back(export_name(kind), folder_ / export_file(kind));
   }
   [[nodiscard]] json write_and_read(ExportKind kind) const {
     write(kind, simulated().model, simulated().result);
@@ -72,12 +57,6 @@ class ExportReadBack : public ::testing::Test {
   }
 
   TempFolder folder_;
-
- private:
-  static std::string script_of(ExportKind kind) {
-    return std::string("'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_") +
-           export_name(kind) + ".py'";
-  }
 };
 
 std::vector<std::string> column_names(bool sky, const std::vector<std::string>& bands) {
@@ -239,7 +218,7 @@ TEST_F(ExportReadBack, CoordinatesAreInTheAxesOfTheUser) {
 TEST_F(ExportReadBack, GltfInAssimp) {
   write(ExportKind::glb, simulated().model, simulated().result);
   const std::string file = (folder_ / "canopy.glb").string();
-  const std::string info = output_of("assimp info '" + file + "' -r 2>&1");
+  const std::string info = regression::output_of("assimp info '" + file + "' -r 2>&1");
   const Box box = bounds(simulated().model.canopy);
   const auto number_after = [&](const std::string& label) {
     const std::size_t at = info.find(label);
@@ -328,8 +307,7 @@ TEST_F(ExportReadBack, RowsStoredChunkByChunk) {
     writer.put(r, values);
   }
   writer.finish();
-  const json found = json::parse(output_of(
-      "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_rows.py' '" + place.string() + "'"));
+  const json found = regression::read_back("rows", place);
   EXPECT_EQ(found["wrong"], 0);
   EXPECT_EQ(found["filters"], true);
   EXPECT_EQ(found["chunks"], (json{1, NetcdfFile::longest_chunk}));

@@ -1,14 +1,13 @@
 // Tests `day` through the program: its tables, and that an interrupted day resumes with the same results.
 
 #include "regression/preload.h"
+#include "regression/read_back.h"
 #include "support/table.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <memory>
 
 namespace sunfleck::regression {
 namespace {
@@ -106,15 +105,7 @@ class Day : public PreloadTest {
     may_be_killed_ = false;
     preload_nothing();
   }
-  [[nodiscard]] json read_fields() const {
-    const std::string command = "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR "/tests/regression/read_back/read_day.py' '" +
-                                (folder_ / "out/day.nc").string() + "'";
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
-    std::string text;
-    std::array<char, 4096> piece{};
-    while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), got);
-    return json::parse(text, nullptr, false);
-  }
+  [[nodiscard]] json read_fields() const { return read_back("day", folder_ / "out/day.nc"); }
 
   // One by one, steps are stored as soon as each is done.
   const Arguments one_by_one_{"--together", "1"};

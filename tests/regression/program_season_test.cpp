@@ -1,14 +1,13 @@
 // Tests `day` over several dates through the program, and the planes and sensors of a day.
 
 #include "regression/preload.h"
+#include "regression/read_back.h"
 #include "support/table.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 
 namespace sunfleck::regression {
 namespace {
@@ -113,16 +112,6 @@ class Season : public PreloadTest {
     std::erase_if(found, [](const auto& file) { return file.first == "summary.json" || file.first.starts_with("steps/"); });
     return found;
   }
-  [[nodiscard]] json read_back(const std::string& name) const {
-    const std::string command = "'" SUNFLECK_PYTHON "' -B '" SUNFLECK_SOURCE_DIR
-                                "/tests/regression/read_back/read_season.py' '" +
-                                (folder_ / "out" / name).string() + "'";
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
-    std::string text;
-    std::array<char, 4096> piece{};
-    while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), got);
-    return json::parse(text, nullptr, false);
-  }
 
   const Arguments three_days_{"--date", "2002-08-07", "--to-date", "2002-08-09", "--from",
                               "08:00",  "--to",       "16:00",     "--step",     "120"};
@@ -179,7 +168,7 @@ TEST_F(Season, KindsOfOrgansShareWhatArrives) {
 
 TEST_F(Season, OrgansHaveEveryStep) {
   expect_day(three_days_ + Arguments{"--export", "nc"});
-  const json found = read_back("organs_steps.nc");
+  const json found = read_back("season", folder_ / "out/organs_steps.nc");
   ASSERT_FALSE(found.is_discarded()) << "python3-netcdf4 and python3-xarray must be installed";
   const Table organs(file("organs_day.csv"));
   const std::size_t count = organs.size() / 3;
@@ -201,7 +190,7 @@ TEST_F(Season, OrgansHaveEveryStep) {
     }
   }
   EXPECT_TRUE(exists("day.nc"));
-  const json maps = read_back("plane_0.300_day.nc");
+  const json maps = read_back("season", folder_ / "out/plane_0.300_day.nc");
   ASSERT_FALSE(maps.is_discarded());
   EXPECT_EQ(maps["sizes"], json({{"time", 12}, {"bound", 2}, {"x_m", 4}, {"z_m", 5}}));
   const Table sums(file("plane_0.300_day.csv"));
