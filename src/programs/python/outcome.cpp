@@ -79,6 +79,7 @@ std::string Outcome::summary() const {
 
 Table Outcome::table_of(const std::string& name) {
   if (name == "triangles.csv") return triangles_table(fields());
+  if (name == "balance") return balance_table(simulated_.result);
   const ResultTable* const table = find_table(name);
   if (table == nullptr) refuse_table(name);
   return table->make(simulated_.scene->model, simulated_.result);
@@ -86,28 +87,16 @@ Table Outcome::table_of(const std::string& name) {
 
 std::string Outcome::table(const std::string& name) {
   const ResultTable* const table = find_table(name);
-  if (table != nullptr && !table->is_of(simulated_.result)) refuse_table(name);
+  if (table != nullptr ? !table->is_of(simulated_.result) : name == "balance") refuse_table(name);
   return csv_text(simulated_.record, table_of(name));
 }
 
+py::dict Outcome::columns(const std::string& name) {
+  return columns_of(table_of(name));
+}
+
 py::dict Outcome::describe(const std::string& name) {
-  return descriptions_of(name == "balance" ? balance_table(simulated_.result) : table_of(name));
-}
-
-py::dict Outcome::profile() const {
-  return columns_of(layers_table(simulated_.scene->model, simulated_.result));
-}
-
-py::dict Outcome::organs() const {
-  return columns_of(organs_table(simulated_.scene->model, simulated_.result));
-}
-
-py::dict Outcome::plants() const {
-  return columns_of(plants_table(simulated_.scene->model, simulated_.result));
-}
-
-py::dict Outcome::balance() const {
-  return columns_of(balance_table(simulated_.result));
+  return descriptions_of(table_of(name));
 }
 
 py::list Outcome::planes() const {
@@ -125,11 +114,6 @@ py::list Outcome::sensors() const {
     sensors.append(columns_of(sensor_table(simulated_.scene->model, simulated_.result, i), {}, sensor));
   }
   return sensors;
-}
-
-py::dict Outcome::sensor_means() const {
-  if (simulated_.result.sensors.empty()) return {};
-  return columns_of(sensor_means_table(simulated_.scene->model, simulated_.result));
 }
 
 py::dict Outcome::triangles(const py::object& self) {
@@ -186,14 +170,10 @@ void bind_outcome(py::module_& module) {
       .def_property_readonly("complete", &Outcome::complete)
       .def("summary", &Outcome::summary)
       .def("table", &Outcome::table)
+      .def("columns", &Outcome::columns)
       .def("describe", &Outcome::describe)
-      .def("balance", &Outcome::balance)
-      .def("profile", &Outcome::profile)
-      .def("organs", &Outcome::organs)
-      .def("plants", &Outcome::plants)
       .def("planes", &Outcome::planes)
       .def("sensors", &Outcome::sensors)
-      .def("sensor_means", &Outcome::sensor_means)
       .def("corners", &Outcome::corners)
       .def("organ_rows", [](const py::object& self) { return self.cast<Outcome&>().organ_rows(self); })
       .def("render",

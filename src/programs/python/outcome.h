@@ -22,15 +22,11 @@ class Outcome {
   [[nodiscard]] bool complete() const { return simulated_.record.complete; }
   [[nodiscard]] std::string summary() const;                 // summary.json
   [[nodiscard]] std::string table(const std::string& name);  // profile.csv, organs.csv, plants.csv, ...
-  // Returns the unit, the meaning and whether xarray has it, for each column of a table, or of `balance`.
+  // Return the columns of a table, or of `balance`: their values, and the unit, the meaning and whether xarray has it.
+  [[nodiscard]] pybind11::dict columns(const std::string& name);
   [[nodiscard]] pybind11::dict describe(const std::string& name);
-  [[nodiscard]] pybind11::dict balance() const;       // [band], the energy balance
-  [[nodiscard]] pybind11::dict profile() const;       // [layer + 1], the columns of profile.csv
-  [[nodiscard]] pybind11::dict organs() const;        // [organ], the columns of organs.csv
-  [[nodiscard]] pybind11::dict plants() const;        // [plant], the columns of plants.csv
-  [[nodiscard]] pybind11::list planes() const;        // a dict per [[plane]]: maps of [cells_x, cells_z]
-  [[nodiscard]] pybind11::list sensors() const;       // a dict per [[sensor]]: [point]
-  [[nodiscard]] pybind11::dict sensor_means() const;  // [sensor], the columns of sensor_means.csv
+  [[nodiscard]] pybind11::list planes() const;   // a dict per [[plane]]: maps of [cells_x, cells_z]
+  [[nodiscard]] pybind11::list sensors() const;  // a dict per [[sensor]]: [point]
   // Writes into a folder what `run` would write there; an earlier result in it is replaced. Throws Error as `run` does.
   void write(const ResultRequest& request) const;
 

@@ -10,6 +10,7 @@ from ._errors import refuse
 
 _SHORT_TABLES = ("profile.csv", "organs.csv", "plants.csv")
 _SENSOR_TABLES = ("sensors.csv", "sensor_means.csv")
+_OWN_ARRAYS = ("sensors.csv", "triangles.csv")  # whose columns have methods of their own
 
 
 def _copied(value: Any) -> Any:
@@ -41,6 +42,7 @@ class _Kept:
         self._arrays = {name: _copied(getattr(core, name)()) for name in arrays}
         self._tables = {name: core.table(name) for name in tables}
         self._described = {name: core.describe(name) for name in described}
+        self._columns = {name: _copied(core.columns(name)) for name in described if name not in _OWN_ARRAYS}
 
     def summary(self) -> str:
         return self._summary
@@ -49,6 +51,9 @@ class _Kept:
         if name not in self._tables:
             refuse(name, "no such table in a result that was pickled", f"use {', '.join(self._tables)}")
         return self._tables[name]
+
+    def columns(self, name: str) -> Any:
+        return _shared(self._columns[name])
 
     def describe(self, name: str) -> dict[str, Any]:
         if name not in self._described:
@@ -70,9 +75,7 @@ class KeptOutcome(_Kept):
         if isinstance(core, KeptOutcome):
             self.__dict__.update(core.__dict__)
             return
-        arrays = (
-            "triangles", "organs", "plants", "profile", "planes", "sensors", "sensor_means", "corners", "balance", "organ_rows",
-        )  # fmt: skip
+        arrays = ("triangles", "planes", "sensors", "corners", "organ_rows")
         tables = (*_SHORT_TABLES, *_SENSOR_TABLES) if core.sensors() else _SHORT_TABLES
         super().__init__(core, arrays, tables, (*tables, "triangles.csv", "balance"))
 
@@ -83,14 +86,9 @@ class KeptOutcome(_Kept):
         refuse("render", "a result that was pickled has no scene", "render it before it is pickled")
 
     triangles = _answer("triangles")
-    organs = _answer("organs")
-    plants = _answer("plants")
-    profile = _answer("profile")
     planes = _answer("planes")
     sensors = _answer("sensors")
-    sensor_means = _answer("sensor_means")
     corners = _answer("corners")
-    balance = _answer("balance")
     organ_rows = _answer("organ_rows")
 
 
@@ -103,13 +101,9 @@ class KeptDay(_Kept):
         arrays = ("organ_steps", "triangles", "plane_steps") if core.has_triangles else ("organ_steps",)
         super().__init__(core, arrays, tables, tables)
         self.has_triangles: bool = core.has_triangles
-        self._columns = {name: _copied(core.columns(name)) for name in tables}
 
     def tables(self) -> list[str]:
         return list(self._tables)
-
-    def columns(self, name: str) -> Any:
-        return _shared(self._columns[name])
 
     organ_steps = _answer("organ_steps")
     triangles = _answer("triangles")

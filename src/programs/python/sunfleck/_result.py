@@ -95,21 +95,21 @@ class Result:
         BAND_direct, BAND_indirect, BAND_absorbed (W m-2, mean over the one-sided area), with photon units
         BAND_absorbed_umol_m2_s, and the sunlit and shaded classes, each with its _error; role (names). Soil elements of a mesh are
         included, the ground of [soil] is not."""
-        return with_text_arrays(self._outcome.organs())
+        return with_text_arrays(self._outcome.columns("organs.csv"))
 
     @functools.cached_property
     def plants(self) -> dict[str, np.ndarray]:
         """The columns of plants.csv as arrays of shape (plants,): plant, x, y, z (m, where it stands), height_m, leaf_area_m2,
         sunlit_leaf_fraction, BAND_incident, BAND_absorbed (W of the whole plant), with photon units BAND_absorbed_umol_s, each of
         these with its _error."""
-        return self._outcome.plants()
+        return self._outcome.columns("plants.csv")
 
     @functools.cached_property
     def profile(self) -> dict[str, np.ndarray]:
         """The columns of profile.csv as arrays of shape (layers + 1,), from the ground up, with the top plane in the last row:
         height_m, leaf_area_index, sunfleck_ratio, sunlit_leaf_fraction, BAND_down, BAND_up, BAND_absorbed (by vegetation) and
         BAND_absorbed_structure, each with its _error."""
-        return self._outcome.profile()
+        return self._outcome.columns("profile.csv")
 
     @functools.cached_property
     def planes(self) -> list[dict[str, Any]]:
@@ -129,7 +129,7 @@ class Result:
         """The columns of sensor_means.csv as arrays of shape (sensors,), each the mean over the sensor's points: sensor (names),
         points (their number), BAND_direct, BAND_sky, BAND_scattered, BAND_total and, with photon units,
         BAND_total_umol_m2_s, each with its _error; empty without sensors."""
-        return with_text_arrays(self._outcome.sensor_means())
+        return with_text_arrays(self._outcome.columns("sensor_means.csv")) if self.sensors else {}
 
     @functools.cached_property
     def corners(self) -> np.ndarray:
@@ -184,7 +184,7 @@ class Result:
         profile = variables("profile.csv", "plane_height", self.profile)
         height = profile.pop("height_m")
         data = data.assign(profile).assign_coords(plane_height=height, band=list(self.bands))
-        balance = variables("balance", "band", self._outcome.balance())
+        balance = variables("balance", "band", self._outcome.columns("balance"))
         for name in sorted(balance, key=lambda name: name.endswith("_error")):
             data[name] = balance[name]
         data = data.assign(self._sensor_variables())
@@ -218,7 +218,7 @@ class Result:
         if table == "sensors":
             return self._sensors_frame(units)
         if table == "bands":
-            return data_frame(self._outcome.balance(), named("band", self.bands), units)
+            return data_frame(self._outcome.columns("balance"), named("band", self.bands), units)
         columns = self.profile if table == "layers" else getattr(self, table)
         if not columns:
             refuse(f"to_dataframe({table!r})", "the scene has no sensors", "add a [[sensor]]")
