@@ -62,52 +62,49 @@ void expect_run_of(const test::LiveScene& live, const LiveLight& light, const Li
   expect_same(result_of(light), run_of(live, model));
 }
 
-TEST(LiveLight, EndsWithWhatRunComputes) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  const RadiationResult run = run_of(live, live.scene.model);
-  LiveLight light(live.simulation, live.options, [] {});
-  ASSERT_TRUE(wait_until_done(light, 1));
-  expect_same(result_of(light), run);
-  EXPECT_EQ(light.news().problem, "");
+class LiveLightTest : public ::testing::Test {
+ protected:
+  const TempFolder folder_;
+  test::LiveScene live_{test::write_live_scene(folder_)};
+  LiveLight light_{live_.simulation, live_.options, [] {}};
+};
+
+TEST_F(LiveLightTest, EndsWithWhatRunComputes) {
+  ASSERT_TRUE(wait_until_done(light_, 1));
+  expect_same(result_of(light_), run_of(live_, live_.scene.model));
+  EXPECT_EQ(light_.news().problem, "");
 }
 
-TEST(LiveLight, AnotherSunBeginsAnew) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  LightRequest request = request_of(live.scene);
+TEST_F(LiveLightTest, AnotherSunBeginsAnew) {
+  LightRequest request = request_of(live_.scene);
   std::uint64_t number = 0;
   for (const double hour : {8.0, 11.5, 14.0}) {  // without waiting for the previous one
     request.sun.hour = hour;
-    number = light.ask(request);
+    number = light_.ask(request);
   }
   EXPECT_EQ(number, 4U);
-  ASSERT_TRUE(wait_until_done(light, number));
-  RadiationModel model = live.scene.model;
-  grant(request, live.scene, model);
-  expect_same(result_of(light), run_of(live, model));
-  const std::optional<SunPosition> sun = light.news().sun;
+  ASSERT_TRUE(wait_until_done(light_, number));
+  RadiationModel model = live_.scene.model;
+  grant(request, live_.scene, model);
+  expect_same(result_of(light_), run_of(live_, model));
+  const std::optional<SunPosition> sun = light_.news().sun;
   ASSERT_TRUE(sun);
   EXPECT_EQ(sun->azimuth_rad, model.sun->azimuth_rad);
 }
 
-TEST(LiveLight, OtherOpticsKeepTheBeams) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  ASSERT_TRUE(wait_until_done(light, 1));
-  const RadiationResult before = result_of(light);
-  EXPECT_EQ(light.news().spared_beams, 0U);
-  LightRequest request = request_of(live.scene);
+TEST_F(LiveLightTest, OtherOpticsKeepTheBeams) {
+  ASSERT_TRUE(wait_until_done(light_, 1));
+  const RadiationResult before = result_of(light_);
+  EXPECT_EQ(light_.news().spared_beams, 0U);
+  LightRequest request = request_of(live_.scene);
   request.optics.at(0).upper[0] = request.optics.at(0).lower[0] = {0.3, 0.3};
-  ASSERT_TRUE(wait_until_done(light, light.ask(request)));
-  EXPECT_GE(light.news().spared_beams, 8U);
-  RadiationModel model = live.scene.model;
-  grant(request, live.scene, model);
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(request)));
+  EXPECT_GE(light_.news().spared_beams, 8U);
+  RadiationModel model = live_.scene.model;
+  grant(request, live_.scene, model);
   EXPECT_EQ(model.optics[0].upper[0].reflectance, 0.3);
-  const RadiationResult after = result_of(light);
-  expect_same(after, run_of(live, model));
+  const RadiationResult after = result_of(light_);
+  expect_same(after, run_of(live_, model));
   EXPECT_NE(after.side_indirect, before.side_indirect);
 }
 
@@ -150,70 +147,58 @@ TEST(LiveLight, PlaysADayAsMomentsOfOneSimulation) {
 }
 
 // The user may change anything while moments are being simulated ahead.
-TEST(LiveLight, ForgetsMomentsThatAreNoLongerPlayed) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  LightRequest moment = request_of(live.scene);
+TEST_F(LiveLightTest, ForgetsMomentsThatAreNoLongerPlayed) {
+  LightRequest moment = request_of(live_.scene);
   moment.sun.hour = 9.0;
-  light.ask(moment, moments_after(moment, 20.0, 11));
+  light_.ask(moment, moments_after(moment, 20.0, 11));
   LightRequest other = moment;
   other.optics.at(0).upper[0] = other.optics.at(0).lower[0] = {0.3, 0.3};
-  ASSERT_TRUE(wait_until_done(light, light.ask(other, moments_after(other, 20.0, 11))));
-  EXPECT_EQ(live.simulation.model().optics[0].upper[0].reflectance, 0.3);
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(other, moments_after(other, 20.0, 11))));
+  EXPECT_EQ(live_.simulation.model().optics[0].upper[0].reflectance, 0.3);
   moment.sun.hour = 15.0;
-  ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
-  expect_run_of(live, light, moment);
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(moment)));
+  expect_run_of(live_, light_, moment);
 }
 
 // The pause may come while the moment is being simulated with those ahead.
-TEST(LiveLight, RefinesAMomentThatIsPausedAtOnce) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  LightRequest moment = request_of(live.scene);
+TEST_F(LiveLightTest, RefinesAMomentThatIsPausedAtOnce) {
+  LightRequest moment = request_of(live_.scene);
   for (const double hour : {8.0, 9.0, 10.0, 13.0, 15.0}) {
     moment.sun.hour = hour;
-    light.ask(moment, moments_after(moment, 20.0, 11));
+    light_.ask(moment, moments_after(moment, 20.0, 11));
     std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(2.0 * hour)));
-    ASSERT_TRUE(wait_until_done(light, light.ask(moment)));
-    expect_run_of(live, light, moment);
+    ASSERT_TRUE(wait_until_done(light_, light_.ask(moment)));
+    expect_run_of(live_, light_, moment);
   }
 }
 
 // Night has no moments that share packets with those of the day.
-TEST(LiveLight, PlaysMomentsInTheDark) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  LightRequest moment = request_of(live.scene);
+TEST_F(LiveLightTest, PlaysMomentsInTheDark) {
+  LightRequest moment = request_of(live_.scene);
   moment.sky.kind = SkyRequestKind::none;
   std::vector<LightRequest> ahead(2, moment);
   moment.sun.hour = 1.0;
   ahead[0].sun.hour = 2.0;
-  ASSERT_TRUE(test::wait_for([&] { return light.news().complete; }));
-  ASSERT_TRUE(wait_until_done(light, light.ask(moment, ahead)));
-  EXPECT_EQ(result_of(light).direct.rays, 0U);
-  ASSERT_TRUE(wait_until_done(light, light.ask(ahead[1], {ahead[1]})));
-  EXPECT_GT(result_of(light).direct.rays, 0U);
+  ASSERT_TRUE(test::wait_for([&] { return light_.news().complete; }));
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(moment, ahead)));
+  EXPECT_EQ(result_of(light_).direct.rays, 0U);
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(ahead[1], {ahead[1]})));
+  EXPECT_GT(result_of(light_).direct.rays, 0U);
 }
 
-TEST(LiveLight, ContinuesAfterARequestThatCannotBeMet) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  ASSERT_TRUE(wait_until_done(light, 1));
-  LightRequest request = request_of(live.scene);
+TEST_F(LiveLightTest, ContinuesAfterARequestThatCannotBeMet) {
+  ASSERT_TRUE(wait_until_done(light_, 1));
+  LightRequest request = request_of(live_.scene);
   request.sun.shines = false;
   request.sky.kind = SkyRequestKind::clear;
-  light.ask(request);
-  ASSERT_TRUE(test::wait_for([&] { return !light.news().problem.empty(); }));
-  EXPECT_NE(light.news().problem.find("sky"), std::string::npos);
+  light_.ask(request);
+  ASSERT_TRUE(test::wait_for([&] { return !light_.news().problem.empty(); }));
+  EXPECT_NE(light_.news().problem.find("sky"), std::string::npos);
   request.sky.kind = SkyRequestKind::uniform;
-  const std::uint64_t number = light.ask(request);
-  ASSERT_TRUE(wait_until_done(light, number));
-  EXPECT_EQ(light.news().problem, "");
-  EXPECT_EQ(result_of(light).direct.rays, 0U);
+  const std::uint64_t number = light_.ask(request);
+  ASSERT_TRUE(wait_until_done(light_, number));
+  EXPECT_EQ(light_.news().problem, "");
+  EXPECT_EQ(result_of(light_).direct.rays, 0U);
 }
 
 TEST(LiveLight, SavesWhatRunWrites) {
@@ -237,19 +222,16 @@ TEST(LiveLight, SavesWhatRunWrites) {
 
 // The half-width of a side belongs to the light that falls on it: on a leaf that absorbs everything, both sides together give
 // the absorbed flux.
-TEST(LiveLight, KnowsTheErrorOfEachSide) {
-  const TempFolder folder;
-  test::LiveScene live(test::write_live_scene(folder));
-  LiveLight light(live.simulation, live.options, [] {});
-  LightRequest request = request_of(live.scene);
+TEST_F(LiveLightTest, KnowsTheErrorOfEachSide) {
+  LightRequest request = request_of(live_.scene);
   for (std::size_t b = 0; b < 2; ++b) {
     request.optics.at(0).upper[b] = request.optics.at(0).lower[b] = {};
     request.soil_reflectance[b] = 0.0;
   }
   request.sky.kind = SkyRequestKind::none;
-  ASSERT_TRUE(wait_until_done(light, light.ask(request)));
-  const RadiationResult result = result_of(light);
-  const std::size_t elements = live.scene.model.canopy.size();
+  ASSERT_TRUE(wait_until_done(light_, light_.ask(request)));
+  const RadiationResult result = result_of(light_);
+  const std::size_t elements = live_.scene.model.canopy.size();
   ASSERT_EQ(result.side_error.size(), 2 * elements * 2);
   for (std::size_t e = 0; e < elements; ++e) {
     for (std::size_t b = 0; b < 2; ++b) {
