@@ -4,6 +4,7 @@
 #include "files/results/tables/flux_terms.h"
 #include "files/results/tables/judged_figure.h"
 #include "files/results/tables/summary_parts.h"
+#include "files/results/tables/table.h"
 #include "files/results/tables/work_settings.h"
 #include "physics/canopy/axes.h"
 
