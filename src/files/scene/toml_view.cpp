@@ -169,13 +169,11 @@ bool TomlTable::has(std::string_view key) const {
 }
 
 bool TomlTable::is_table(std::string_view key) const {
-  const toml::node* node = find(key);
-  return node != nullptr && node->is_table();
+  return (*table_)[key].is_table();
 }
 
 bool TomlTable::is_text(std::string_view key) const {
-  const toml::node* node = find(key);
-  return node != nullptr && node->is_string();
+  return (*table_)[key].is_string();
 }
 
 std::vector<std::string> TomlTable::keys() const {
