@@ -160,6 +160,18 @@ inline std::size_t line_of(const std::string& text, const std::string& mark) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
+// Returns a level triangle 0.5 m above a plot of 1 m2, leaf 7 of plant 3.
+inline Mesh one_leaf() {
+  Mesh mesh;
+  mesh.vertices = {{0.2, 0.5, 0.2}, {0.2, 0.5, 0.8}, {0.8, 0.5, 0.2}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.optics_of = {0};
+  mesh.organ_of = {0};
+  mesh.optics_names = {"leaf"};
+  mesh.organs = {{3, "leaf", 7}};
+  return mesh;
+}
+
 // Gives each test a folder with plates.obj and station.csv in it.
 class SceneFolder : public ::testing::Test {
  protected:

@@ -38,23 +38,12 @@ mesh = "leaf"
 )";
 const std::vector<std::string> band_names = {"PAR", "NIR"};
 
-Mesh leaf() {
-  Mesh mesh;
-  mesh.vertices = {{0.2, 0.5, 0.2}, {0.2, 0.5, 0.8}, {0.8, 0.5, 0.2}};
-  mesh.triangles = {{0, 1, 2}};
-  mesh.optics_of = {0};
-  mesh.organ_of = {0};
-  mesh.optics_names = {"leaf"};
-  mesh.organs = {{3, "leaf", 7}};
-  return mesh;
-}
-
 std::string edited(const SceneEdits& edits) {
   return edited_scene_text("before.toml", scene_head + two_bands + scene_rest, band_names, edits);
 }
 
 Scene read(const std::string& text) {
-  return read_scene(SceneText{"after.toml", text, {{"leaf", leaf()}}});
+  return read_scene(SceneText{"after.toml", text, {{"leaf", one_leaf()}}});
 }
 
 TEST(SceneEditor, WithoutEditsKeepsTheScene) {

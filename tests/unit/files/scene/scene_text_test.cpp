@@ -14,23 +14,12 @@ const std::string text_head =
     "[plot]\nsize = [1.0, 1.0]\n[sun]\nelevation = 60.0\nazimuth = 90.0\n[[band]]\nname = \"PAR\"\ndirect = 100.0\n"
     "[optics.leaf]\nreflectance = 0.1\n";
 
-Mesh leaf() {
-  Mesh mesh;
-  mesh.vertices = {{0.2, 0.5, 0.2}, {0.2, 0.5, 0.8}, {0.8, 0.5, 0.2}};
-  mesh.triangles = {{0, 1, 2}};
-  mesh.optics_of = {0};
-  mesh.organ_of = {0};
-  mesh.optics_names = {"leaf"};
-  mesh.organs = {{3, "leaf", 7}};
-  return mesh;
-}
-
 Scene read(const Mesh& mesh, const std::string& more = "") {
   return read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"a\"\n" + more, {{"a", mesh}}});
 }
 
 TEST(SceneText, HoldsAMesh) {
-  const Scene scene = read(leaf());
+  const Scene scene = read(one_leaf());
   ASSERT_EQ(scene.model.canopy.size(), 1U);
   EXPECT_EQ(scene.model.canopy.organs.front(), (Organ{3, "leaf", 7}));
   EXPECT_EQ(scene.title, "given");
@@ -40,7 +29,7 @@ TEST(SceneText, HoldsAMesh) {
 TEST(SceneText, TurnsAMeshToTheAxesOfTheScene) {
   const std::string text = "axes = \"east-north-up\"\n" + text_head + "[[geometry]]\nmesh = \"a\"\n";
   const auto first_corner = [&](const std::string& more) {
-    const Scene scene = read_scene(SceneText{"given.toml", text + more, {{"a", leaf()}}});
+    const Scene scene = read_scene(SceneText{"given.toml", text + more, {{"a", one_leaf()}}});
     return scene.model.canopy.corners.front()[0];
   };
   // (0.2, 0.5, 0.2) is 0.2 m east and 0.5 m north of the south-west corner, at a height of 0.2 m.
@@ -50,7 +39,7 @@ TEST(SceneText, TurnsAMeshToTheAxesOfTheScene) {
 }
 
 TEST(SceneText, KeepsItsAxesInNewLight) {
-  Scene scene = read(leaf());
+  Scene scene = read(one_leaf());
   expect_refusal(
       [&] {
         relight(scene, {"given.toml", "axes = \"east-north-up\"\n" + text_head, {}});
@@ -59,25 +48,25 @@ TEST(SceneText, KeepsItsAxesInNewLight) {
 }
 
 TEST(SceneText, PlacesAMeshLikeAFile) {
-  const Scene scene = read(leaf(), "up = \"z\"\nscale = 0.5\nat = [[0, 0, 0], [0.1, 0, 0]]\n");
+  const Scene scene = read(one_leaf(), "up = \"z\"\nscale = 0.5\nat = [[0, 0, 0], [0.1, 0, 0]]\n");
   EXPECT_EQ(scene.model.canopy.size(), 2U);
   EXPECT_NEAR(area_m2(scene.model.canopy.corners.front()), 0.045, 1e-6);
   EXPECT_NEAR(unit_normal(scene.model.canopy.corners.front()).x, -1.0, 1e-6) << "z-up: y = north = -X";
 }
 
 TEST(SceneText, IsMarkedByItsMeshes) {
-  Mesh other = leaf();
+  Mesh other = one_leaf();
   other.vertices[0].y += 1e-9;
-  EXPECT_EQ(read(leaf()).digest, read(leaf()).digest);
-  EXPECT_NE(read(leaf()).digest, read(other).digest);
-  other = leaf();
+  EXPECT_EQ(read(one_leaf()).digest, read(one_leaf()).digest);
+  EXPECT_NE(read(one_leaf()).digest, read(other).digest);
+  other = one_leaf();
   other.organs[0].rank = 8;
-  EXPECT_NE(read(leaf()).digest, read(other).digest);
+  EXPECT_NE(read(one_leaf()).digest, read(other).digest);
 }
 
 TEST(SceneText, RefusesMeshesThatDoNotFitTogether) {
   const auto refused = [](const auto& change, const std::string& words) {
-    Mesh mesh = leaf();
+    Mesh mesh = one_leaf();
     change(mesh);
     const std::string message = expect_refusal([&] { static_cast<void>(read(mesh)); }, words);
     EXPECT_EQ(message.rfind("given.toml:12: geometry.mesh", 0), 0U) << message;
@@ -98,11 +87,11 @@ TEST(SceneText, RefusesMeshesThatDoNotFitTogether) {
 
 TEST(SceneText, WantsOneSourceOfTriangles) {
   for (const char* more : {"file = \"plates.obj\"\n", "generator = \"maize\"\n"}) {
-    expect_refusal([&] { static_cast<void>(read(leaf(), more)); }, "is also given");
+    expect_refusal([&] { static_cast<void>(read(one_leaf(), more)); }, "is also given");
   }
   expect_refusal(
       [] {
-        static_cast<void>(read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"b\"\n", {{"a", leaf()}}}));
+        static_cast<void>(read_scene(SceneText{"given.toml", text_head + "[[geometry]]\nmesh = \"b\"\n", {{"a", one_leaf()}}}));
       },
       "no mesh of that name");
 }
