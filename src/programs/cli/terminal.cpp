@@ -37,6 +37,19 @@ std::string shortfall(const char* pass, const PassError& of, const RadiationMode
   return fmt::format("{} error {:.2g} of {:.2g} ({})", pass, *of.relative_error, *of.bound, figure_name(*of.judged, model));
 }
 
+// Returns the part of a solver's progress that a progress line shows.
+ProgressLine::State progress_state(const Progress& progress) {
+  ProgressLine::State state{.rays = progress.rays, .fraction = progress.fraction, .seconds_left = progress.seconds_left};
+  if (progress.stage == Progress::Stage::pilot) state.stage = "pilot";
+  if (progress.stage == Progress::Stage::sensors) state.stage = "sensors";
+  if (progress.relative_error) {
+    state.relative_error = progress.relative_error;
+    state.bound = progress.bound;
+    state.error_of = pass_name(progress.pass);
+  }
+  return state;
+}
+
 }  // namespace
 
 void start_at_terminal(const RunOptions& options) {
@@ -48,18 +61,6 @@ void start_at_terminal(const RunOptions& options) {
 std::string device_line(const TracerDevice& device) {
   return fmt::format("device: {}{}", device.name,
                      device.software && device.kind == "vulkan" ? " (software Vulkan, no GPU)" : "");
-}
-
-ProgressLine::State progress_state(const Progress& progress) {
-  ProgressLine::State state{.rays = progress.rays, .fraction = progress.fraction, .seconds_left = progress.seconds_left};
-  if (progress.stage == Progress::Stage::pilot) state.stage = "pilot";
-  if (progress.stage == Progress::Stage::sensors) state.stage = "sensors";
-  if (progress.relative_error) {
-    state.relative_error = progress.relative_error;
-    state.bound = progress.bound;
-    state.error_of = pass_name(progress.pass);
-  }
-  return state;
 }
 
 Monitor terminal_monitor(ProgressLine& line) {

@@ -28,9 +28,6 @@ void start_at_terminal(const RunOptions& options);
 // Returns the device in use, as one line for the user.
 [[nodiscard]] std::string device_line(const TracerDevice& device);
 
-// Returns the part of a solver's progress that a progress line shows.
-[[nodiscard]] ProgressLine::State progress_state(const Progress& progress);
-
 // Returns a monitor that draws the progress line, which must outlive it, and that Ctrl-C interrupts.
 [[nodiscard]] Monitor terminal_monitor(ProgressLine& line);
 

@@ -13,6 +13,14 @@ void append_value(std::string& row, double value) {
   if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.9g}", value);
 }
 
+// Returns the text, quoted as in RFC 4180 if it holds a comma, a quote, a line break or the '#' of comments.
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n#") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 struct AppendCell {
   std::string& row;
   const Column& column;
@@ -77,13 +85,6 @@ std::string csv_rows(const Table& table) {
     text += '\n';
   }
   return text;
-}
-
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n#") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 }  // namespace sunfleck

@@ -22,7 +22,4 @@ void append_number(std::string& row, double value);
 [[nodiscard]] std::string csv_head(const RunRecord& record, const Table& table);
 [[nodiscard]] std::string csv_rows(const Table& table);
 
-// Returns the text, quoted as in RFC 4180 if it holds a comma, a quote, a line break or the '#' of comments.
-[[nodiscard]] std::string csv_field(std::string_view text);
-
 }  // namespace sunfleck

@@ -17,12 +17,13 @@ void add_board(MeshMaker& mesh, int fields, double y_m) {
   }
 }
 
-}  // namespace
-
+// Adds a level rectangle that faces up, with its middle at that place (x east, y north, z up).
 void add_plate(MeshMaker& mesh, double x, double y, double size_x, double size_y, double z) {
   mesh.quad(from_east_north_up(x - size_x / 2, y - size_y / 2, z), from_east_north_up(x + size_x / 2, y - size_y / 2, z),
             from_east_north_up(x + size_x / 2, y + size_y / 2, z), from_east_north_up(x - size_x / 2, y + size_y / 2, z));
 }
+
+}  // namespace
 
 RadiationModel triangle_under(const SunPosition& sun) {
   const glm::dvec3 shift_m(0.055, -0.95, 0.05);

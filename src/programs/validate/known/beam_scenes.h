@@ -7,9 +7,6 @@
 
 namespace sunfleck {
 
-// Adds a level rectangle that faces up, with its middle at that place (x east, y north, z up).
-void add_plate(MeshMaker& mesh, double x, double y, double size_x, double size_y, double z);
-
 // Returns a single inclined triangle above an isolated plot of 0.06 m.
 [[nodiscard]] RadiationModel triangle_under(const SunPosition& sun);
 
