@@ -147,6 +147,40 @@ def test_scenes_that_are_no_scenes(tmp_path):
         sunfleck.run(tmp_path / "broken.toml")
 
 
+def test_a_scene_file_is_read_once(scene_file, monkeypatch):
+    """What becomes of the file or of the current folder later does not reach a simulation."""
+    monkeypatch.chdir(scene_file.parent)
+    simulations = [sunfleck.Simulation(file, device="cpu") for file in (scene_file, scene_file.name)]
+    light = {"sun": {"elevation": 20.0, "azimuth": 130.0}, "grid": 0.05, "passes": 8}
+    expected = sunfleck.Simulation(scene_file, device="cpu").run(**light).table("profile.csv")
+    spectra = {"leaf": {"spectrum": "leaf.csv"}}
+    (scene_file.parent / "leaf.csv").write_text("wavelength,reflectance,transmittance\n300,0.1,0.05\n2500,0.1,0.05\n")
+    scene_file.write_text("[plot\n")
+    assert simulations[0].run(**light).table("profile.csv") == expected
+    scene_file.unlink()
+    monkeypatch.chdir("/")
+    assert simulations[1].run(**light).table("profile.csv") == expected
+    ranges = [{"name": name, "direct": 1.0, "range_nm": [400.0, 700.0]} for name in ("PAR", "NIR")]
+    simulations[1].relight(optics=spectra, band=ranges)
+    with pytest.raises(sunfleck.InputError, match=r"^scene.toml: sun.elevation"):
+        simulations[1].relight(sun={"elevation": 100.0, "azimuth": 0.0})
+
+
+def test_scene_files_of_windows(scene_file):
+    """Editors there begin a file with a byte order mark; older ones write Latin-1."""
+    text = scene_file.read_text()
+    expected = sunfleck.run(scene_file, **WORK, sun={"elevation": 20.0, "azimuth": 130.0})["PAR_absorbed"]
+    scene_file.write_text(text, encoding="utf-8-sig")
+    relit = sunfleck.run(scene_file, **WORK, sun={"elevation": 20.0, "azimuth": 130.0})
+    assert np.array_equal(relit["PAR_absorbed"], expected)
+    assert sunfleck.sweep(scene_file, optics={"leaf": {"reflectance": [0.1]}}, **WORK)[0].complete
+    for content in (text.replace("three", "trois \xe9").encode("latin-1"), b"\x89PNG\r\n\x1a\n\x00\xff"):
+        scene_file.write_bytes(content)
+        for simulate in (sunfleck.run, lambda scene, **work: sunfleck.sweep(scene, optics={"leaf": {"reflectance": [0.1]}}, **work)):
+            with pytest.raises(sunfleck.InputError, match="scene.toml:"):
+                simulate(scene_file, **WORK)
+
+
 def test_devices_that_are_not_there():
     with pytest.raises(sunfleck.DeviceError, match=r"\(.*\); "):
         sunfleck.run(with_arrays(), device="no such device")

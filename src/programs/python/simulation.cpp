@@ -50,6 +50,8 @@ class PythonSimulation {
     return std::make_unique<Outcome>(std::move(*simulated));
   }
 
+  // Returns the text of the scene as it was read; empty after `relight`.
+  [[nodiscard]] py::bytes scene_text() const { return simulation_->scene().text; }
   [[nodiscard]] std::vector<std::string> warnings() const { return simulation_->scene().warnings; }
   [[nodiscard]] std::size_t triangles() const { return simulation_->scene().model.canopy.size(); }
   [[nodiscard]] std::size_t tree_bytes() const { return simulation_->tree_bytes(); }
@@ -121,6 +123,7 @@ void bind_simulation(py::module_& module) {
                     const std::string&, int>())
       .def("relight", &PythonSimulation::relight)
       .def("run", &PythonSimulation::run)
+      .def_property_readonly("scene_text", &PythonSimulation::scene_text)
       .def_property_readonly("warnings", &PythonSimulation::warnings)
       .def_property_readonly("triangles", &PythonSimulation::triangles)
       .def_property_readonly("tree_bytes", &PythonSimulation::tree_bytes)

@@ -29,8 +29,10 @@ class SceneSource:
     def __init__(self, scene: Scene, folder: Union[str, "os.PathLike[str]", None] = None) -> None:
         self.meshes: dict[str, Any] = {}
         self._tables: Union[dict[str, Any], None] = None
+        self._content: Union[bytes, None] = None
         if isinstance(scene, Mapping):
             self.file = Path(folder or ".") / _DICT_NAME
+            self._absolute = self.file.absolute()
             self._tables = self._take_meshes(scene)
             self.text: Union[str, None] = _toml(self._tables)
             return
@@ -39,14 +41,23 @@ class SceneSource:
         if folder is not None:
             refuse("folder", "a scene file has its own folder", "leave it out")
         self.file = Path(scene)
+        self._absolute = self.file.absolute()
         self.text = None
 
     @property
+    def present_file(self) -> Path:
+        """The file by its name as given or, once the current folder has changed, by its absolute name."""
+        return self.file if self.file.absolute() == self._absolute else self._absolute
+
+    def keep(self, content: bytes) -> None:
+        """Keeps the content of a scene file, so that changes of the file do not reach a scene that was read before."""
+        self._content = content
+
+    @property
     def tables(self) -> dict[str, Any]:
-        """The keys of the scene."""
+        """The keys of the scene. A file is read unless its content was kept; raises InputError if Python cannot parse it."""
         if self._tables is None:
-            with open(self.file, "rb") as stream:
-                self._tables = tomllib.load(stream)
+            self._tables = _parsed(self._absolute.read_bytes() if self._content is None else self._content, self.file)
         return self._tables
 
     def text_with(self, changes: Mapping[str, Any]) -> str:
@@ -86,6 +97,13 @@ class SceneSource:
         self.meshes[name] = _mesh(part, place)
         keys = _PART_KEYS + (("optics",) if isinstance(part.get("optics"), Mapping) else ())
         return {"mesh": name, **_plain({key: part[key] for key in keys if key in part}, place)}
+
+
+def _parsed(content: bytes, file: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(content.decode("utf-8-sig"))  # editors of Windows begin files with a byte order mark
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+        refuse(f"{file}: not a TOML file that Python can read", str(error), "correct it, or give the scene as a dict")
 
 
 def _toml(tables: Mapping[str, Any]) -> str:

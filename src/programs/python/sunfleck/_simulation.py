@@ -37,7 +37,7 @@ def without_line_numbers(source: SceneSource) -> Iterator[None]:
 
 
 def _of_dict(message: str, source: SceneSource) -> str:
-    begin = re.escape(str(source.file))
+    begin = re.escape(str(source.present_file))
     return in_python(re.sub(rf"^{begin}(:\d+)?: ", f"{source.file.name}: ", message))
 
 
@@ -88,6 +88,8 @@ class Simulation:
         band: Sequence[Mapping[str, Any]] = UNCHANGED,
         weather: Optional[Mapping[str, Any]] = UNCHANGED,
         soil: Mapping[str, Any] = UNCHANGED,
+        if self._source.text is None:
+            self._source.keep(self._core.scene_text)
         optics: Mapping[str, Mapping[str, Any]] = UNCHANGED,
     ) -> None:
         """Changes light or optics from now on; each argument is a table of a scene file: sun={"elevation": 40, "azimuth": 120}.
@@ -104,7 +106,7 @@ class Simulation:
             light[key] = {**light.get(key, {}), **value} if key in ("soil", "optics") and value is not None else value
         text = self._source.text_with(light)
         with self._tidied(always=True):
-            self._core.relight(os.fspath(self._source.file), text)
+            self._core.relight(os.fspath(self._source.present_file), text)
         self._light = light
         self._warn()
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
-from ._errors import refuse
+from ._errors import InputError, refuse
 from ._result import Result
 from ._scene import Scene, SceneSource
 from ._simulation import Simulation
@@ -168,7 +167,7 @@ def _tables(scene: Scene, folder: Any, device: str, threads: int, allow_outside:
     """Returns the keys of the scene."""
     try:
         return SceneSource(scene, folder).tables
-    except (OSError, tomllib.TOMLDecodeError):
+    except (OSError, InputError):
         Simulation(scene, folder=folder, device=device, threads=threads, allow_outside=allow_outside)  # raises the program's error
         raise
 
