@@ -194,7 +194,12 @@ def test_light_that_does_not_fit_leaves_all_as_it_was():
         ({"sky": {"model": "grey"}}, "sky.model"),
         ({"sun": None}, "direct"),
         ({"optics": {"leaf": {"reflectance": 2.0}}}, "optics.leaf"),
+        ({"optics": {"leaf": None}}, "optics.leaf = None"),
+        ({"optics": 5}, "optics: int"),
         ({"soil": {"patch": 0.5}}, "soil.patch"),
+        ({"soil": {"reflectance": None}}, "soil.reflectance = None"),
+        ({"soil": []}, "soil: list"),
+        ({"soil": "x"}, "soil: str"),
         ({"band": [{"name": "PAR"}]}, "NIR"),
     ):
         with pytest.raises(ValueError) as error:

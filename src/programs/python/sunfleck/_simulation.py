@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _core
-from ._errors import InputError, in_python
+from ._errors import InputError, in_python, refuse
 from ._options import whole, work_options
 from ._progress import Progress, reporting
 from ._result import Result
@@ -39,6 +39,16 @@ def without_line_numbers(source: SceneSource) -> Iterator[None]:
 def _of_dict(message: str, source: SceneSource) -> str:
     begin = re.escape(str(source.present_file))
     return in_python(re.sub(rf"^{begin}(:\d+)?: ", f"{source.file.name}: ", message))
+
+
+def _checked_table(table: Any, place: str) -> Mapping[str, Any]:
+    """Returns the table of soil or optics if it has a value for each of its keys."""
+    if not isinstance(table, Mapping):
+        refuse(f"{place}: {type(table).__name__}", "must be a dict", 'give {"leaf": {...}}' if place == "optics" else 'give {"reflectance": 0.2}')
+    for key, value in table.items():
+        if value is None:
+            refuse(f"{place}.{key} = None", "is no value", "leave it out to keep what the scene has")
+    return table
 
 
 class Simulation:
@@ -78,6 +88,8 @@ class Simulation:
                 os.fspath(self._source.file), self._source.text, self._source.meshes, allow_outside, str(device), checked_threads
             )
         self._source.meshes = {}
+        if self._source.text is None:
+            self._source.keep(self._core.scene_text)
         self._warn()
 
     def relight(
@@ -88,14 +100,14 @@ class Simulation:
         band: Sequence[Mapping[str, Any]] = UNCHANGED,
         weather: Optional[Mapping[str, Any]] = UNCHANGED,
         soil: Mapping[str, Any] = UNCHANGED,
-        if self._source.text is None:
-            self._source.keep(self._core.scene_text)
         optics: Mapping[str, Mapping[str, Any]] = UNCHANGED,
     ) -> None:
         """Changes light or optics from now on; each argument is a table of a scene file: sun={"elevation": 40, "azimuth": 120}.
 
-        sun, sky and weather replace the whole table (None removes it), band replaces all bands; soil and optics replace only the
-        keys and names that they contain. Raises InputError and changes nothing if the new scene is invalid.
+        sun, sky and weather replace the whole table (None removes it), and band replaces all bands. soil replaces the keys that it
+        contains: {"reflectance": 0.2} keeps the patch. optics replaces the tables of the names that it contains, each as a whole:
+        {"leaf": {"reflectance": 0.2}} makes leaves opaque, so give transmittance, too. (In `sweep` what is left out stays.)
+        Raises InputError and changes nothing if the new scene is invalid.
         """
         given: dict[str, Any] = {"sun": sun, "sky": sky, "band": band, "weather": weather, "soil": soil, "optics": optics}
         changes = {key: value for key, value in given.items() if value is not UNCHANGED}
@@ -103,7 +115,8 @@ class Simulation:
             return
         light = dict(self._light)
         for key, value in changes.items():
-            light[key] = {**light.get(key, {}), **value} if key in ("soil", "optics") and value is not None else value
+            overlaid = key in ("soil", "optics") and value is not None
+            light[key] = {**(light.get(key) or {}), **_checked_table(value, key)} if overlaid else value
         text = self._source.text_with(light)
         with self._tidied(always=True):
             self._core.relight(os.fspath(self._source.present_file), text)

@@ -127,8 +127,9 @@ def sweep(
 
     optics, soil: changes of the scene's tables, with a list in place of every number that varies, one value for each variant:
         optics={"leaf": {"reflectance": [0.08, 0.12, 0.16], "transmittance": {"PAR": [0.04, 0.06, 0.08], "NIR": 0.4}}}. All lists have
-        the same length. A number holds for all variants; what is left out stays as the scene has it, but for a `spectrum` of a
-        table that changes, which the values replace.
+        the same length. A number holds for all variants. Unlike in `run` and `relight`, whose optics replace the tables of the
+        names that they contain, what is left out stays as the scene has it: {"leaf": {"reflectance": [0.1, 0.2]}} keeps the
+        transmittance of leaves. Only a `spectrum` of a table that changes is replaced by the values.
     All other arguments: as for `run`.
 
     The variants are bands of one simulation: packets find their way through the canopy once and carry the light of all variants. The
