@@ -128,6 +128,17 @@ def test_several_dates_keep_triangles_only_if_asked():
     assert np.allclose(7200e-6 * steps["PAR_total"].astype(float).sum(axis=0), maps["PAR_total_mj_m2"])
 
 
+def test_planes_are_in_order_of_height():
+    planes = [{"height": height, "cells": [2, cells]} for height, cells in ((0.9, 3), (0.3, 4), (0.6, 5))]
+    scene = with_arrays({**DAY, "plane": planes})
+    day = sunfleck.day(scene, **HOURS, grid=0.05, passes=8)
+    assert day.planes["height_m"].tolist() == [0.3, 0.6, 0.9]
+    for maps in (day.plane_maps, day.plane_steps, pickle.loads(pickle.dumps(day)).plane_maps):
+        assert [plane["height_m"] for plane in maps] == [0.3, 0.6, 0.9]
+    assert [plane["PAR_total_mj_m2"].shape for plane in day.plane_maps] == [(4, 2), (5, 2), (3, 2)]
+    assert [plane["height_m"] for plane in sunfleck.run(scene, grid=0.05, passes=8, device="cpu").planes] == [0.3, 0.6, 0.9]
+
+
 def test_sensors_over_a_day():
     line = {"name": "line", "from": [0.1, 0.1, 0.1], "to": [0.4, 0.1, 0.1], "points": 3}
     day = sunfleck.day(with_arrays({**DAY, "sensor": [line]}), **HOURS, grid=0.05, passes=8)

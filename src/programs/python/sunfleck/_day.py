@@ -121,8 +121,8 @@ class DayResult:
 
     @functools.cached_property
     def planes(self) -> dict[str, Any]:
-        """The light through horizontal planes at each step, the columns of planes_day.csv: time (texts); height_m by plane; and
-        arrays of shape (steps, planes): sunfleck_ratio, BAND_down (W m-2), with photon units BAND_down_umol_m2_s, with their
+        """The light through horizontal planes at each step, the columns of planes_day.csv: time (texts); height_m by plane, in
+        ascending order; and arrays of shape (steps, planes): sunfleck_ratio, BAND_down (W m-2), with photon units BAND_down_umol_m2_s, with their
         half-widths _error. Empty without planes."""
         return self._columns("planes_day.csv")
 
@@ -134,15 +134,16 @@ class DayResult:
 
     @functools.cached_property
     def plane_maps(self) -> list[dict[str, Any]]:
-        """The maps of each plane summed over all steps, the columns of plane_H_day.csv: the centres of the cells (x_m and z_m, or x_m
-        and y_m), and arrays of shape (rows, cells): sunlit_h and sunlit_share (time in direct sun), BAND_direct_mj_m2,
-        BAND_total_mj_m2, with photon units BAND_total_mol_m2."""
+        """The maps of each plane summed over all steps, in ascending order of height: height_m, the columns of plane_H_day.csv: the
+        centres of the cells (x_m and z_m, or x_m and y_m), and arrays of shape (rows, cells): sunlit_h and sunlit_share (time in
+        direct sun), BAND_direct_mj_m2, BAND_total_mj_m2, with photon units BAND_total_mol_m2."""
         names = [name for name in self._core.tables() if name.startswith("plane_") and name.endswith("_day.csv")]
-        return [self._core.columns(name) for name in names]
+        heights = self.planes["height_m"].tolist() if names else []
+        return [{"height_m": height, **self._core.columns(name)} for height, name in zip(heights, names, strict=True)]
 
     @functools.cached_property
     def plane_steps(self) -> list[dict[str, Any]]:
-        """The maps of each plane at each step: height_m, and arrays of shape (steps, rows, cells) in single precision: sunfleck (NaN
+        """The maps of each plane at each step, in ascending order of height: height_m, and arrays of shape (steps, rows, cells) in single precision: sunfleck (NaN
         without a beam), BAND_direct and BAND_total (W m-2). Kept as `triangles` are."""
         self._expect_triangles("plane_steps")
         return self._core.plane_steps()

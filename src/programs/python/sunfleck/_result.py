@@ -113,7 +113,7 @@ class Result:
 
     @functools.cached_property
     def planes(self) -> list[dict[str, Any]]:
-        """One dict per [[plane]]: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
+        """One dict per [[plane]], in ascending order of height: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
         (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards). With the axes x east, y north, z up
         there is y_m instead of z_m, and the maps have the shape (cells along y, cells along x)."""
         return self._outcome.planes()
@@ -245,7 +245,8 @@ class Result:
         """Draws with matplotlib, and returns the axes.
 
         kind: "profile", a column of `profile` against height with its errors, or "map", a map of `planes`. quantity: the column;
-            by default BAND_down of a profile, BAND_total of a map. band: by default the first. plane: the number of the plane.
+            by default BAND_down of a profile, BAND_total of a map. band: by default the first. plane: the number of the plane,
+            from 0 for the lowest.
         ax: axes to draw into; by default those of a new figure.
         """
         return _plots.draw(self, kind, quantity, band, plane, ax)
