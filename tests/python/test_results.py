@@ -3,6 +3,7 @@
 import ctypes
 import gc
 import os
+import pickle
 import sys
 
 import numpy as np
@@ -210,3 +211,28 @@ def test_simulations_leak_nothing():
     # the stacks of oneTBB's workers are used ever deeper before a worker pauses, and shrinks again later.
     assert bytes_in_use() - before < 128 * 1024
     assert sys.getallocatedblocks() - blocks_before < 3 * 60  # NumPy 1.24 itself loses one block in each np.unique
+
+
+def arrays_of(value):
+    """Returns the arrays in dicts and lists."""
+    if isinstance(value, np.ndarray):
+        return [value]
+    items = value.values() if isinstance(value, dict) else value if isinstance(value, list) else []
+    return [array for item in items for array in arrays_of(item)]
+
+
+RESULT_TABLES = ("triangles", "organs", "plants", "profile", "planes", "sensors", "sensor_means", "corners")
+DAY_TABLES = ("steps", "sums", "season", "organs", "plants", "organ_steps", "sensors", "sensor_means", "sensor_sums", "planes",
+              "plane_sums", "plane_maps", "plane_steps", "triangles")  # fmt: skip
+
+
+def test_arrays_are_read_only(result):
+    sun = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
+    moving = with_arrays({**TABLES, "sun": sun, "band": [{"name": "PAR", "direct_normal": 400.0, "diffuse": 40.0}]})
+    day = sunfleck.day({**moving, "optics": BLACK["optics"], "soil": {"reflectance": 0.1}}, step=180, grid=0.1, passes=8, device="cpu")
+    for owner, tables in ((result, RESULT_TABLES), (day, DAY_TABLES)):
+        for again in (owner, pickle.loads(pickle.dumps(owner))):
+            for table in tables:
+                arrays = arrays_of(getattr(again, table))
+                assert arrays and not any(array.flags.writeable for array in arrays), table
+    assert result["PAR_absorbed"].copy().flags.writeable and result.render(size=(64, 64)).flags.writeable

@@ -18,13 +18,17 @@ namespace sunfleck {
   return static_cast<pybind11::ssize_t>(size);
 }
 
+// Makes an array read-only, because all who ask for it receive the same one.
+[[nodiscard]] inline pybind11::array read_only(pybind11::array array) {
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return array;
+}
+
 // Returns a read-only array of that shape that refers to values without a copy; `owner` lives as long as the array. There may be
 // no values.
 template <class T>
 pybind11::array view_of(std::span<const T> values, std::vector<pybind11::ssize_t> shape, const pybind11::handle& owner) {
-  pybind11::array_t<T> array(std::move(shape), values.data(), owner);
-  array.attr("setflags")(pybind11::arg("write") = false);
-  return array;
+  return read_only(pybind11::array_t<T>(std::move(shape), values.data(), owner));
 }
 
 // Returns an array that takes over the vector.

@@ -34,13 +34,13 @@ struct MakeObject {
   py::object operator()(const RowNumbers& numbers) const {
     std::vector<std::int64_t> values(numbers.count);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int64_t>(i);
-    return array_of(std::move(values));
+    return read_only(array_of(std::move(values)));
   }
   template <class T>
   py::object operator()(std::span<const T> numbers) const {
     const std::vector<py::ssize_t> shape = shape_of(table, column);
     if (shape.empty()) return py::float_(static_cast<double>(numbers.front()));
-    if (column.owner) return py::array_t<T>(shape, numbers.data(), capsule_of(column.owner));
+    if (column.owner) return read_only(py::array_t<T>(shape, numbers.data(), capsule_of(column.owner)));
     return view_of(numbers, shape, holder);
   }
 

@@ -162,7 +162,7 @@ py::array Outcome::corners() const {
       corners.insert(corners.end(), {corner.x, corner.y, corner.z});
     }
   }
-  return array_of(std::move(corners), {signed_size(model.canopy.size()), 3, 3});
+  return read_only(array_of(std::move(corners), {signed_size(model.canopy.size()), 3, 3}));
 }
 
 void bind_outcome(py::module_& module) {

@@ -22,9 +22,14 @@ def optional(module: str, purpose: str) -> Any:
 
 
 def text_array(texts: Iterable[str]) -> np.ndarray:
-    """Returns texts as an array of fixed width, dtype <U."""
+    """Returns texts as a read-only array of fixed width, dtype <U."""
     texts = list(texts)
-    return np.array(texts, dtype=str) if texts else np.empty(0, dtype="<U1")
+    return read_only(np.array(texts, dtype=str) if texts else np.empty(0, dtype="<U1"))
+
+
+def read_only(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array
 
 
 def with_text_arrays(columns: Mapping[str, Any]) -> dict[str, Any]:
@@ -38,7 +43,7 @@ def triangle_columns(core: Any) -> dict[str, Any]:
     words = {name: text_array(given.pop(f"{name}_name")) for name in ("organ", "optics")}
     columns = {}
     for name, values in given.items():
-        columns[name] = words[name][values] if name in words else values
+        columns[name] = read_only(words[name][values]) if name in words else values
         if name == "organ":
             columns["organ_index"] = core.organ_rows()
     return columns

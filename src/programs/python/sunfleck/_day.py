@@ -43,7 +43,8 @@ _FRAMES = {
 
 
 class DayResult:
-    """The results of one or more days, as `sunfleck day` gives them; BAND stands for the name of a band."""
+    """The results of one or more days, as `sunfleck day` gives them; BAND stands for the name of a band. Arrays are read-only: copy
+    an array to change it."""
 
     def __init__(self, core: Any) -> None:
         self._core = core

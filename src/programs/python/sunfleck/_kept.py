@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ._columns import read_only
 from ._errors import refuse
 
 _SHORT_TABLES = ("profile.csv", "organs.csv", "plants.csv")
@@ -25,9 +26,7 @@ def _copied(value: Any) -> Any:
 def _shared(value: Any) -> Any:
     """Returns read-only views of arrays in new dicts and lists."""
     if isinstance(value, np.ndarray):
-        view = value.view()
-        view.flags.writeable = False
-        return view
+        return read_only(value.view())
     if isinstance(value, dict):
         return {name: _shared(item) for name, item in value.items()}
     return [_shared(item) for item in value] if isinstance(value, list) else value

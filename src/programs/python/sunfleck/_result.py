@@ -42,8 +42,8 @@ class Result:
 
     Fluxes are in W m-2, or in the band's own unit of irradiance; NAME_error is the half-width of the confidence interval of NAME, in
     its unit; it includes the unshot flux and is NaN if there are too few hits. Coordinates are in metres in the scene's own axes:
-    X south, Y up, Z west, or x east, y north, z up with axes = "east-north-up". Arrays are computed on first access; numbers of the
-    triangles are read-only views of memory that the result owns. Texts are arrays of fixed width (dtype <U), so that
+    X south, Y up, Z west, or x east, y north, z up with axes = "east-north-up". Arrays are computed on first access and are
+    read-only, since every access returns the same one: copy an array to change it. Texts are arrays of fixed width (dtype <U), so that
     `result["organ"] == "leaf"` is a mask. `organ` is everywhere the organ's name, `organ_index` its row in `organs`.
 
     A result can be copied and pickled: it then keeps its arrays, its summary and its short tables, but not the scene, so
