@@ -144,7 +144,8 @@ PlotVariables plane_variables(const std::filesystem::path& folder, const std::st
 
 // Draws the plots of the tables that write_tables has written.
 void write_plots(const std::filesystem::path& folder, const ResultRequest& request, const RunRecord& record,
-                 const Drawing& drawing, const ProfileOverlays& overlays, UnwrittenFiles& unwritten) {
+                 const Drawing& drawing, const DrawingHooks& hooks, UnwrittenFiles& unwritten) {
+  const ProfileOverlays& overlays = hooks.overlays;
   const RadiationModel& model = drawing.scene.model;
   const RadiationResult& result = drawing.result;
   const Waveband& band = model.bands[picture_band(model, request.pictures.band)];
@@ -159,21 +160,21 @@ void write_plots(const std::filesystem::path& folder, const ResultRequest& reque
   if (holds(request.images, "all") || holds(request.images, "profile"))
     plots.draw("profile.gp", profile_variables(folder, request, record.title, band.name, overlays, figures), profile_plot_file);
   if (!holds(request.images, "all") && !holds(request.images, "planes")) return;
-  for (std::size_t plane = 0; plane < result.planes.size() && !interrupted(); ++plane) {
+  for (std::size_t plane = 0; plane < result.planes.size() && !hooks.stop(); ++plane) {
     const std::string stem = plane_stem(result.planes[plane].height_m);
     plots.draw("plane.gp", plane_variables(folder, record.title, model, stem, band), stem + ".png");
   }
 }
 
-// Draws the pictures; returns false if interrupted before all were drawn.
+// Draws the pictures; returns false if stopped before all were drawn.
 bool write_pictures(const std::filesystem::path& folder, const ResultRequest& request, const Drawing& drawing,
-                    UnwrittenFiles& unwritten) {
+                    const StopQuestion& stop, UnwrittenFiles& unwritten) {
   const std::vector<Picture> wanted = wanted_pictures(request, drawing.scene.model, drawing.result);
   if (wanted.empty()) return true;
   bool finished = true;
   std::vector<std::optional<std::string>> pngs(wanted.size());  // compressed by several threads, written in order
   unwritten.attempt("the pictures", [&] {
-    finished = draw_charts(drawing, request.pictures, wanted, interrupted,
+    finished = draw_charts(drawing, request.pictures, wanted, stop,
                            [&](std::size_t k, const Image& image) { pngs[k] = encoded_png(image); });
   });
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -318,7 +319,7 @@ bool shows_triangles(const ResultRequest& request) {
 }
 
 UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const ResultRequest& request,
-                                  const SimulatedScene& simulated, RunRecord& record, const ProfileOverlays& overlays) {
+                                  const SimulatedScene& simulated, RunRecord& record, const DrawingHooks& hooks) {
   const Scene& scene = *simulated.scene;
   const CpuThreads limit(record.threads);
   Stopwatch watch;
@@ -327,8 +328,8 @@ UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const Res
   write_export_files(folder, request, record, simulated.drawing(), unwritten);
   unwritten.attempt(result_store_file,
                     [&] { write_result_store(folder / result_store_file, record, scene, simulated.result); });
-  write_plots(folder, request, record, simulated.drawing(), overlays, unwritten);
-  record.pictures_interrupted = !write_pictures(folder, request, simulated.drawing(), unwritten);
+  write_plots(folder, request, record, simulated.drawing(), hooks, unwritten);
+  record.pictures_interrupted = !write_pictures(folder, request, simulated.drawing(), hooks.stop, unwritten);
   record.not_written.insert(record.not_written.end(), unwritten.names().begin(), unwritten.names().end());
   record.complete = record.complete && !record.pictures_interrupted && record.not_written.empty();
   record.seconds.write = watch.lap();

@@ -4,6 +4,7 @@
 #include "base/folder_lock.h"
 #include "files/formats/measured/measured_reader.h"
 #include "files/results/tables/profile_table.h"
+#include "simulate/interrupt.h"
 #include "simulate/requests.h"
 #include "simulate/simulated_scene.h"
 #include "simulate/unwritten_files.h"
@@ -71,10 +72,16 @@ void check_pictures(const ResultRequest& request, const RadiationModel& model);
 // Returns whether exports or pictures show the light of single triangles, which the simulation must then estimate.
 [[nodiscard]] bool shows_triangles(const ResultRequest& request);
 
+// What drawing needs in addition to the result.
+struct DrawingHooks {
+  ProfileOverlays overlays;
+  StopQuestion stop = interrupted;  // leaves the remaining pictures out; asked by several threads
+};
+
 // Writes everything into the prepared folder, the summary last. Completes the record, which begins as the result's own, with
 // the unwritten files and the time taken. Returns the files that could not be written; the others are complete.
 [[nodiscard]] UnwrittenFiles write_whole_result(const std::filesystem::path& folder, const ResultRequest& request,
                                                 const SimulatedScene& simulated, RunRecord& record,
-                                                const ProfileOverlays& overlays = {});
+                                                const DrawingHooks& hooks = {});
 
 }  // namespace sunfleck

@@ -1,5 +1,6 @@
 """While it traces: progress, exceptions, Ctrl-C, and other threads."""
 
+import json
 import os
 import signal
 import subprocess
@@ -121,18 +122,43 @@ def test_simulations_of_several_threads():
     assert found == [expected] * 4
 
 
-@pytest.mark.parametrize("device", ["cpu", "lavapipe"])
-def test_interrupts_are_heard(device):
+def interrupt(work, is_ready=lambda: True):
+    """Runs Python code that prints "begun", sends it Ctrl-C once it is ready, and returns the seconds that it takes to end."""
     code = (
         "import sys; sys.path.insert(0, sys.argv[1])\n"
         "import conftest, sunfleck\n"
         "try:\n"
-        f"    sunfleck.run(conftest.with_arrays(), error=1e-7, device={device!r}, progress=lambda _: print('begun', flush=True))\n"
+        f"    {work}\n"
         "except KeyboardInterrupt:\n"
         "    print('interrupted', flush=True)\n"
     )
     child = subprocess.Popen([sys.executable, "-B", "-c", code, os.path.dirname(__file__)], stdout=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "begun\n"
+    while not is_ready():
+        time.sleep(0.01)
     child.send_signal(signal.SIGINT)
+    begin = time.monotonic()
     rest, _ = child.communicate(timeout=PATIENCE_S)
     assert rest.splitlines()[-1] == "interrupted" and child.returncode == 0
+    return time.monotonic() - begin
+
+
+@pytest.mark.parametrize("device", ["cpu", "lavapipe"])
+def test_interrupts_are_heard(device):
+    interrupt(f"sunfleck.run(conftest.with_arrays(), error=1e-7, device={device!r}, progress=lambda _: print('begun', flush=True))")
+
+
+def test_interrupts_end_pictures():
+    result = "result = sunfleck.run(conftest.with_arrays(), **conftest.WORK)"
+    begun = "print('begun', flush=True)"
+    assert interrupt(f"{result}; {begun}; result.render(size=(8192, 8192), samples=256)") < 20.0, "it would take minutes"
+
+
+def test_interrupts_while_a_result_is_saved(tmp_path):
+    """What is written is whole, and the summary says that pictures are missing."""
+    folder = tmp_path / "out"
+    result = "result = sunfleck.run(conftest.with_arrays(), **conftest.WORK)"
+    saving = f"print('begun', flush=True); result.save({str(folder)!r}, images='all')"
+    interrupt(f"{result}; {saving}", is_ready=(folder / "summary.json").exists)
+    summary = json.loads((folder / "summary.json").read_text())
+    assert not summary["complete"] and summary["stopped"] == "interrupted"

@@ -73,7 +73,7 @@ int run(const RunOptions& asked) {
   SimulatedScene simulated = simulate_at_terminal(simulation, settings, &checkpoint, &ranks);
   simulated.record.seconds.load = load_s;
   simulated.record.seconds.total += load_s;
-  const UnwrittenFiles unwritten = write_whole_result(folder, options, simulated, simulated.record, overlays);
+  const UnwrittenFiles unwritten = write_whole_result(folder, options, simulated, simulated.record, {.overlays = overlays});
   if (simulated.record.pictures_interrupted) simulated.result.stop = StopReason::interrupted;
   simulation.check_validation();
 

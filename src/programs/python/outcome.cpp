@@ -7,6 +7,7 @@
 #include "pictures/charts/pictures.h"
 #include "programs/python/arrays.h"
 #include "programs/python/columns.h"
+#include "programs/python/long_work.h"
 #include "simulate/result_folder.h"
 
 #include <fmt/format.h>
@@ -120,14 +121,14 @@ py::dict Outcome::triangles(const py::object& self) {
   return columns_of(triangles_table(fields()), self);
 }
 
-void Outcome::write(const ResultRequest& request) const {
+void Outcome::write(const ResultRequest& request, const StopQuestion& stop) const {
   const std::filesystem::path folder = result_folder(request, simulated_.scene->file);
   FolderLock lock(folder);
   check_pictures(request, simulated_.scene->model);
   check_folder(folder, *simulated_.scene, ResultOf::run);
   prepare_folder(folder, lock, ResultOf::run);
   RunRecord record = simulated_.record;
-  write_whole_result(folder, request, simulated_, record).throw_if_any();
+  write_whole_result(folder, request, simulated_, record, {.stop = stop}).throw_if_any();
 }
 
 py::array Outcome::organ_rows(const py::object& self) const {
@@ -137,18 +138,17 @@ py::array Outcome::organ_rows(const py::object& self) const {
 
 py::array Outcome::render(const Picture& picture, const PictureOptions& options) const {
   std::vector<std::uint8_t> bytes;
-  {
-    const py::gil_scoped_release release;
+  const auto receive = [&](std::size_t, const Image& image) {
+    bytes.reserve(3 * image.pixels.size());
+    for (const auto& pixel : image.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+  };
+  const auto work = [&](const Monitor& monitor) {
     check_view(simulated_.scene->model, options);
     check_field(simulated_.scene->model, picture);
-    const auto never = [] { return false; };
-    const bool done =
-        draw_charts(simulated_.drawing(), options, std::span(&picture, 1), never, [&](std::size_t, const Image& image) {
-          bytes.reserve(3 * image.pixels.size());
-          for (const auto& pixel : image.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
-        });
-    if (!done) throw_failure("render", "it was stopped", "draw again");
-  }
+    // If it is stopped, what stopped it is raised.
+    static_cast<void>(draw_charts(simulated_.drawing(), options, std::span(&picture, 1), monitor.interrupted, receive));
+  };
+  do_long_work(work, py::none());
   return array_of(std::move(bytes), {options.height, options.width, 3});
 }
 
@@ -191,8 +191,7 @@ void bind_outcome(py::module_& module) {
         request.exports = std::move(exports);
         for (const std::string& image : images) check_choice("images", image_words(), image);
         request.images = std::move(images);
-        const py::gil_scoped_release release;
-        outcome.write(request);
+        do_long_work([&](const Monitor& monitor) { outcome.write(request, monitor.interrupted); }, py::none());
       });
 }
 

@@ -27,14 +27,15 @@ class Outcome {
   [[nodiscard]] pybind11::dict describe(const std::string& name);
   [[nodiscard]] pybind11::list planes() const;   // a dict per [[plane]]: maps of [cells_x, cells_z]
   [[nodiscard]] pybind11::list sensors() const;  // a dict per [[sensor]]: [point]
-  // Writes into a folder what `run` would write there; an earlier result in it is replaced. Throws Error as `run` does.
-  void write(const ResultRequest& request) const;
+  // Writes into a folder what `run` would write there; an earlier result in it is replaced. If stopped, leaves the remaining
+  // pictures out. Throws Error as `run` does.
+  void write(const ResultRequest& request, const StopQuestion& stop) const;
 
   // Returns the columns of triangles.csv, [triangle]; `self` is the Python object of this outcome.
   [[nodiscard]] pybind11::dict triangles(const pybind11::object& self);
   // Returns each triangle's organ, [triangle], as the row of organs.csv.
   [[nodiscard]] pybind11::array organ_rows(const pybind11::object& self) const;
-  // Returns a picture as sRGB, [row from the top, column, 3]. Releases the interpreter's lock while it draws. Throws Error
+  // Returns a picture as sRGB, [row from the top, column, 3]. Other threads run while it draws, and Ctrl-C stops it. Throws Error
   // (input) if the scene lacks what the picture is to show, as `render` does.
   [[nodiscard]] pybind11::array render(const Picture& picture, const PictureOptions& options) const;
   [[nodiscard]] pybind11::array corners() const;  // [triangle, corner, axis], m, in the scene's frame
