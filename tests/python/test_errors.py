@@ -145,6 +145,11 @@ def test_scenes_that_are_no_scenes(tmp_path):
     (tmp_path / "broken.toml").write_text("[plot\n")
     with pytest.raises(ValueError, match="broken.toml:"):
         sunfleck.run(tmp_path / "broken.toml")
+    place = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
+    spare = {**TABLES["optics"], "laef": {"reflectance": 0.9}}
+    scene = with_arrays({**TABLES, "sun": place, "optics": spare, "band": [{"name": "PAR", "direct_normal": 1.0}, {"name": "NIR"}]})
+    with pytest.warns(UserWarning, match="^scene: optics.laef is not used by any geometry"):
+        sunfleck.day(scene, start="10:00", stop="12:00", grid=0.1, passes=8, device="cpu")
 
 
 def test_a_scene_file_is_read_once(scene_file, monkeypatch):

@@ -19,7 +19,7 @@ from ._kept import KeptDay
 from ._options import whole, work_options
 from ._progress import Progress, reporting
 from ._scene import Scene, SceneSource
-from ._simulation import without_line_numbers
+from ._simulation import of_dict, without_line_numbers
 
 if TYPE_CHECKING:
     import pandas
@@ -313,5 +313,5 @@ def day(
             around.enter_context(without_line_numbers(source))
         core = _core.day(*given, report)
     for line in core.warnings:
-        warnings.warn(line, stacklevel=2)
+        warnings.warn(line if source.text is None else of_dict(line, source), stacklevel=2)
     return DayResult(core)

@@ -29,14 +29,15 @@ UNCHANGED: Any = _Unchanged()  # the default of what a call leaves as it is
 
 @contextlib.contextmanager
 def without_line_numbers(source: SceneSource) -> Iterator[None]:
-    """Rewrites messages about a text that the user never saw: no line numbers, and Python's words."""
+    """Rewrites the messages of errors as of_dict does."""
     try:
         yield
     except InputError as error:
-        raise type(error)(_of_dict(str(error), source)) from None
+        raise type(error)(of_dict(str(error), source)) from None
 
 
-def _of_dict(message: str, source: SceneSource) -> str:
+def of_dict(message: str, source: SceneSource) -> str:
+    """Returns a message about a text that the user never saw without line numbers, and in Python's words."""
     begin = re.escape(str(source.present_file))
     return in_python(re.sub(rf"^{begin}(:\d+)?: ", f"{source.file.name}: ", message))
 
@@ -198,7 +199,7 @@ class Simulation:
     def _warn(self) -> None:
         for line in self._core.warnings:
             is_text = self._source.text is not None or bool(self._light)
-            warnings.warn(_of_dict(line, self._source) if is_text else line, stacklevel=3)
+            warnings.warn(of_dict(line, self._source) if is_text else line, stacklevel=3)
 
 
 def run(
