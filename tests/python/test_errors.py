@@ -112,9 +112,44 @@ def test_messages_speak_python():
         assert "[[" not in message and "[sky]" not in message
 
 
+def test_messages_name_arguments(tmp_path):
+    """They say start, where the program's messages have its option --from."""
+    place = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
+    bands = [{"name": name, "direct_normal": 1.0, "diffuse": 1.0} for name in ("PAR", "NIR")]
+    scene = with_arrays({**TABLES, "sun": place, "band": bands})
+    arctic = {**scene, "sun": {**place, "latitude": 85.0, "time": "2002-12-08T10:10:00+08:00"}}
+    outside = {**TABLES, "geometry": [{"file": "../leaves.obj"}]}
+    result = sunfleck.run(with_arrays(), **WORK)
+    (tmp_path / "file").write_text("")
+    for words, work in {
+        "start = 25:00 (must be a time": lambda: sunfleck.day(scene, start="25:00", device="cpu"),
+        "; give start and stop": lambda: sunfleck.day(arctic, device="cpu"),
+        "stop = 08:00 (it is not after 09:00); give the earlier time as start": lambda: sunfleck.day(
+            scene, start="09:00", stop="08:00", device="cpu"
+        ),
+        "date = 2002-02-30 (": lambda: sunfleck.day(scene, date="2002-02-30", device="cpu"),
+        "to_date = 2002-01-01 (": lambda: sunfleck.day(scene, to_date="2002-01-01", device="cpu"),
+        "band = foo (": lambda: result.render(band="foo"),
+        "or pass allow_outside=True": lambda: sunfleck.run(outside, folder=tmp_path, **WORK),
+        "); choose a writable folder": lambda: result.save(tmp_path / "file" / "out"),
+        "grid = 1e-09 (": lambda: sunfleck.run(scene, grid=1e-9, device="cpu"),
+        "; give a wider grid or more passes": lambda: sunfleck.run(scene, grid=1e-9, device="cpu"),
+        '); give a datetime with a time zone, or "2002-': lambda: sunfleck.run({**scene, "sun": {**place, "time": 5}}, **WORK),
+    }.items():
+        with pytest.raises(sunfleck.Error) as error:
+            work()
+        message = one_line(error, words)
+        assert "--" not in message and " -o" not in message
+
+
 def test_warnings_speak_python():
     with pytest.warns(UserWarning, match="^scene: sun.azimuth: -60 is below 0"):
         sunfleck.Simulation({**with_arrays(), "sun": {"elevation": 50.0, "azimuth": -60.0}}, device="cpu")
+    place = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
+    spare = {**TABLES["optics"], "laef": {"reflectance": 0.9}}
+    scene = with_arrays({**TABLES, "sun": place, "optics": spare, "band": [{"name": "PAR", "direct_normal": 1.0}, {"name": "NIR"}]})
+    with pytest.warns(UserWarning, match="^scene: optics.laef is not used by any geometry"):
+        sunfleck.day(scene, start="10:00", stop="12:00", grid=0.1, passes=8, device="cpu")
 
 
 OPTIONS = {
@@ -145,11 +180,6 @@ def test_scenes_that_are_no_scenes(tmp_path):
     (tmp_path / "broken.toml").write_text("[plot\n")
     with pytest.raises(ValueError, match="broken.toml:"):
         sunfleck.run(tmp_path / "broken.toml")
-    place = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
-    spare = {**TABLES["optics"], "laef": {"reflectance": 0.9}}
-    scene = with_arrays({**TABLES, "sun": place, "optics": spare, "band": [{"name": "PAR", "direct_normal": 1.0}, {"name": "NIR"}]})
-    with pytest.warns(UserWarning, match="^scene: optics.laef is not used by any geometry"):
-        sunfleck.day(scene, start="10:00", stop="12:00", grid=0.1, passes=8, device="cpu")
 
 
 def test_a_scene_file_is_read_once(scene_file, monkeypatch):

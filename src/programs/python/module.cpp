@@ -16,13 +16,13 @@ namespace {
 
 namespace py = pybind11;
 
-// Raises the Python exception for the kind of Error; `errors` holds the classes.
+// Raises the Python exception for the kind of Error; `errors` is the module with the classes and the words of messages.
 void translate(const sunfleck::Error& error, const py::object& errors) {
   const char* name = "SunfleckError";
   if (error.kind() == sunfleck::ErrorKind::input) name = "InputError";
   if (dynamic_cast<const sunfleck::MissingFile*>(&error) != nullptr) name = "MissingFileError";
   if (error.kind() == sunfleck::ErrorKind::device) name = "DeviceError";
-  PyErr_SetString(errors.attr(name).ptr(), error.what());
+  PyErr_SetObject(errors.attr(name).ptr(), errors.attr("with_arguments")(error.what()).ptr());
 }
 
 }  // namespace

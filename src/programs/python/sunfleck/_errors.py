@@ -29,6 +29,26 @@ def refuse(what: str, why: str, cure: str) -> NoReturn:
     raise InputError(f"{what} ({why}); {cure}")
 
 
+# What the program's messages say, and what it is in Python.
+_PROGRAM_WORDS = (
+    (r"^(--[a-z-]+) (?=\S+ \()", r"\1 = "),
+    (r" with -o\b", ""),
+    (r"\brun with --allow-outside\b", "pass allow_outside=True"),
+    (r"--device cpu\b", 'device="cpu"'),
+    (r"--from\b", "start"),
+    (r"--to-date\b", "to_date"),
+    (r"--to\b", "stop"),
+    (r"--(band|date|grid|passes|repeat|step)\b", r"\1"),
+)
+
+
+def with_arguments(message: str) -> str:
+    """Returns a message with the module's arguments in place of the program's options."""
+    for option, argument in _PROGRAM_WORDS:
+        message = re.sub(option, argument, message)
+    return message
+
+
 def in_python(message: str) -> str:
     """Returns a message about a scene file in the words of a dict: "band": [{...}] for [[band]], "sun": {...} for [sun]."""
 
@@ -43,4 +63,5 @@ def in_python(message: str) -> str:
     message = message.replace(" with two brackets, and its keys below it", "").replace(" once, with its keys below it", "")
     message = re.sub(r"\[\[([A-Za-z_]\w*)\]\]", r'"\1": [{...}]', message)
     message = re.sub(r"\[([A-Za-z_]\w*(?:\.\w+)*)\]", table, message)
+    message = re.sub(r"write it as (\S+), without quotes", r'give a datetime with a time zone, or "\1"', message)
     return message.replace("true or false", "True or False")
