@@ -171,6 +171,76 @@ def test_options(name):
         assert re.search(rf"\b{name}\b", one_line(error, name))
 
 
+CYCLE = {}
+CYCLE["reflectance"] = CYCLE
+DEEP = 0.1
+for _ in range(300):
+    DEEP = [DEEP]
+
+WRONG_ARGUMENTS = {
+    "a text as a flag": (lambda *_: sunfleck.run(with_arrays(), allow_outside="no", **WORK), "allow_outside = 'no'"),
+    "a list as a flag": (lambda *_: sunfleck.sky("uniform", allow_outside=[]), "allow_outside = []"),
+    "a number as a chart": (lambda _, result: result.render(chart=5), "chart: int"),
+    "a number as a size": (lambda _, result: result.render(size=5), "size = 5"),
+    "a number as a table": (lambda _, result: result.describe(5), "table: int"),
+    "no table": (lambda _, result: result.table(None), "table: NoneType"),
+    "a number as a format": (lambda _, result: result.save("nowhere", export=5), "export: int"),
+    "a number as an image": (lambda _, result: result.save("nowhere", images=[5]), "images: int"),
+    "a number as a folder": (lambda _, result: result.save(5), "folder = 5"),
+    "a text as a plane": (lambda _, result: result.plot("map", plane="x"), "plane = 'x'"),
+    "ragged vertices": (lambda *_: sunfleck.run(with_arrays(vertices=[[1, 2, 3], [1, 2]]), **WORK), "geometry[0].vertices"),
+    "ragged optics": (lambda *_: sunfleck.run(with_arrays(optics=["leaf", ["leaf"], "leaf"]), **WORK), "geometry[0].optics"),
+    "a dict in itself": (lambda *_: sunfleck.run({**with_arrays(), "soil": CYCLE}, **WORK), "contain themselves"),
+    "light in itself": (lambda simulation, _: simulation.relight(soil=CYCLE), "contain themselves"),
+    "a deep list": (lambda *_: sunfleck.run({**with_arrays(), "output": {"layers": DEEP}}, **WORK), "nested too deeply"),
+    "a deep table of light": (lambda simulation, _: simulation.relight(sky={"model": DEEP}), "nested too deeply"),
+}
+
+
+@pytest.fixture(scope="module")
+def simulation():
+    return sunfleck.Simulation(with_arrays(), device="cpu")
+
+
+@pytest.fixture(scope="module")
+def result(simulation):
+    return simulation.run(grid=0.1, passes=8)
+
+
+@pytest.mark.parametrize("name", WRONG_ARGUMENTS)
+def test_arguments_of_wrong_types(name, simulation, result):
+    work, words = WRONG_ARGUMENTS[name]
+    with pytest.raises(sunfleck.InputError) as error:
+        work(simulation, result)
+    assert len(one_line(error, words)) < 120
+
+
+@pytest.mark.parametrize("text", ["\ud800", "a\0b"], ids=["surrogate", "nul"])
+def test_texts_with_characters_that_are_none(text, simulation, result, tmp_path):
+    for words, work in {
+        "organ": lambda: sunfleck.run(with_arrays(organ=["leaf", text, "leaf"]), **WORK),
+        "[0].optics": lambda: sunfleck.run(with_arrays(optics=text), **WORK),
+        "a key of optics": lambda: simulation.relight(optics={text: {"reflectance": 0.1}}),
+        "band[0].name": lambda: sunfleck.run({**with_arrays(), "band": [{"name": text}]}, **WORK),
+        "title": lambda: sunfleck.run({**with_arrays(), "title": text}, **WORK),
+        "a key of the scene": lambda: sunfleck.run({**with_arrays(), text: 1}, **WORK),
+        "scene": lambda: sunfleck.sweep(text, optics={"leaf": {"reflectance": [0.1]}}, **WORK),
+        "folder": lambda: result.save(f"{tmp_path}/{text}"),
+        "field": lambda: result.render(field=text),
+        "date": lambda: sunfleck.day(with_arrays(), date=text),
+        "device": lambda: sunfleck.Simulation(with_arrays(), device=text),
+    }.items():
+        with pytest.raises(sunfleck.InputError) as error:
+            work()
+        one_line(error, words)
+    assert not list(tmp_path.iterdir())
+
+
+def test_names_of_files_that_are_not_utf_8(result, tmp_path):
+    result.save(tmp_path / "\udce9")
+    assert [file.name for file in tmp_path.iterdir()] == ["\udce9"]
+
+
 def test_scenes_that_are_no_scenes(tmp_path):
     for scene in (None, 3, [], b"x"):
         with pytest.raises(ValueError):

@@ -16,7 +16,7 @@ from . import _core
 from ._columns import crossed, data_frame, named, optional, with_text_arrays
 from ._errors import refuse
 from ._kept import KeptDay
-from ._options import whole, work_options
+from ._options import flag, text, whole, work_options
 from ._progress import Progress, reporting
 from ._scene import Scene, SceneSource
 from ._simulation import of_dict, without_line_numbers
@@ -165,7 +165,7 @@ class DayResult:
 
     def describe(self, table: str) -> dict[str, tuple[str, str]]:
         """Returns the unit and the meaning of each column of a table such as day.csv; `tables` has the names."""
-        return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(table).items()}
+        return {name: (unit, meaning) for name, (unit, meaning, _) in self._core.describe(text(table, "table")).items()}
 
     @property
     def tables(self) -> list[str]:
@@ -174,7 +174,7 @@ class DayResult:
 
     def table(self, name: str) -> str:
         """Returns the text of one of the `tables`, byte for byte as the program writes it."""
-        return self._core.table(name)
+        return self._core.table(text(name, "table"))
 
     def _columns(self, table: str) -> dict[str, Any]:
         return with_text_arrays(self._core.columns(table)) if table in self._core.tables() else {}
@@ -302,12 +302,15 @@ def day(
             "triangle_errors": False,
         }
     )  # fmt: skip
-    when = (str(start or ""), str(stop or ""), str(date or ""), str(to_date or ""))
+    given_times = {"start": start, "stop": stop, "date": date, "to_date": to_date}
+    when = [text(str(value or ""), name) for name, value in given_times.items()]
     most = None if together is None else whole(together, "together", 1, 96)
     request = _core.DayRequest(*when, whole(step, "step", 1, 24 * 60), most)
-    machine = (str(device), whole(threads, "threads", 0, 4096))
+    machine = (text(str(device), "device"), whole(threads, "threads", 0, 4096))
+    access = flag(allow_outside, "allow_outside")
     source = SceneSource(scene, folder)
-    given = (os.fspath(source.file), source.text, source.meshes, allow_outside, request, work, None if triangles is None else bool(triangles), *machine)
+    kept = None if triangles is None else bool(triangles)
+    given = (os.fspath(source.file), source.text, source.meshes, access, request, work, kept, *machine)
     with reporting(progress) as report, contextlib.ExitStack() as around:
         if source.text is not None:
             around.enter_context(without_line_numbers(source))

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._errors import refuse
-from ._options import real, whole
+from ._options import flag, real, whole
 
 
 def sun_position(time: Any, latitude: float, longitude: float, altitude: float = 0.0) -> tuple[Any, Any]:
@@ -114,4 +114,4 @@ def sky(
 
     source = SceneSource(tables, folder)
     with without_line_numbers(source):
-        return Sky(_core.Sky(os.fspath(source.file), source.text, allow_outside))
+        return Sky(_core.Sky(os.fsencode(source.file), source.text, flag(allow_outside, "allow_outside")))

@@ -1,16 +1,54 @@
-"""Checks the numbers that determine how much work is done."""
+"""Checks arguments: the numbers that determine how much work is done, texts and paths."""
 
 from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Mapping
+import os
+import re
+from collections.abc import Iterable, Mapping
 from typing import Any, Optional, Union
 
 import numpy as np
 
 from . import _core
 from ._errors import refuse
+
+
+_NO_CHARACTER = re.compile("[\0\ud800-\udfff]")  # NUL ends texts of the compiled part, and lone surrogates have no UTF-8
+
+
+def text(value: Any, name: str) -> str:
+    """Returns the value if it is a text that the compiled part can take."""
+    if not isinstance(value, str):
+        refuse(f"{name}: {type(value).__name__}", "must be text", "give a str")
+    if _NO_CHARACTER.search(value):
+        refuse(f"{name} = {value!r}", "contains NUL or a lone surrogate", "remove it")
+    return value
+
+
+def texts(value: Union[str, Iterable[str]], name: str) -> list[str]:
+    """Returns the texts in a list, given one or several."""
+    if not isinstance(value, (str, Iterable)):
+        refuse(f"{name}: {type(value).__name__}", "must be text, or a list of texts", "give a str")
+    return [text(item, name) for item in ([value] if isinstance(value, str) else value)]
+
+
+def path(value: Any, name: str) -> str:
+    """Returns a path as text if a file may have it."""
+    try:
+        content = os.fsencode(value)
+    except (TypeError, UnicodeEncodeError):
+        refuse(f"{name} = {value!r}", "must be a path", "give a str or a pathlib.Path")
+    if b"\0" in content:
+        refuse(f"{name} = {value!r}", "contains NUL, which no path may", "remove it")
+    return os.fsdecode(content)
+
+
+def flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        refuse(f"{name} = {value!r}", "must be True or False", "give one of them")
+    return bool(value)
 
 
 def real(value: Any, name: str) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ._columns import optional
 from ._errors import refuse
+from ._options import whole
 
 
 def _axes(ax: Any) -> Any:
@@ -59,7 +60,7 @@ def draw(result: Any, kind: str, quantity: Optional[str], band: Optional[str], p
         return profile(result.profile, units, quantity or f"{band}_down", ax)
     if kind != "map":
         refuse(f"kind = {kind!r}", "no such plot", "use profile or map")
-    if not 0 <= plane < len(result.planes):
+    if whole(plane, "plane", 0, 2**31 - 1) >= len(result.planes):
         refuse(f"plane = {plane}", f"the scene has {len(result.planes)} [[plane]]", "add one to the scene, or give another number")
     quantity = quantity or f"{band}_total"
     return plane_map(result.planes[plane], quantity, "W m-2" if quantity.startswith(tuple(f"{name}_" for name in result.bands)) else "", ax)

@@ -16,7 +16,7 @@ from . import _plots
 from ._columns import data_frame, named, numbered, optional, triangle_columns, with_text_arrays
 from ._errors import refuse
 from ._kept import KeptOutcome
-from ._options import above_zero, whole
+from ._options import above_zero, path, text, texts, whole
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -140,7 +140,7 @@ class Result:
         """Returns the unit and the meaning of each column of profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv
         or sensor_means.csv: result.describe("organs.csv")["area_m2"] is ("m2", "one-sided area")."""
         described: dict[str, tuple[str, str]] = {}
-        for name, (unit, meaning, _) in self._outcome.describe(table).items():
+        for name, (unit, meaning, _) in self._outcome.describe(text(table, "table")).items():
             described[name] = (unit, meaning)
             if table == "triangles.csv" and name == "organ":
                 described["organ_index"] = ("1", "row of the organ in organs.csv, from 0")
@@ -149,7 +149,7 @@ class Result:
     def table(self, name: str) -> str:
         """Returns the text of profile.csv, organs.csv, plants.csv, triangles.csv, sensors.csv or sensor_means.csv, byte for byte as the
         program writes it."""
-        return self._outcome.table(name)
+        return self._outcome.table(text(name, "table"))
 
     def save(
         self, folder: Union[str, "os.PathLike[str]"], *, export: Iterable[str] = ("csv",), images: Union[str, Iterable[str]] = "none"
@@ -158,11 +158,11 @@ class Result:
 
         `export`: any of csv, nc, vtp, glb, ply, caribu. `images`: "none", "all", or file stems such as "rank_total".
         """
-        exports = [export] if isinstance(export, str) else list(export)
+        exports = texts(export, "export")
         for name in exports:
             if name not in _EXPORTS:
                 refuse(f"export: {name!r}", "no such format", f"use {', '.join(_EXPORTS)}")
-        self._outcome.write(os.fspath(folder), exports, [images] if isinstance(images, str) else list(images))
+        self._outcome.write(os.fsencode(path(folder, "folder")), exports, texts(images, "images"))
 
     def to_xarray(self) -> xarray.Dataset:
         """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, corners also by `vertex`, the profile by
@@ -269,13 +269,18 @@ class Result:
             first. view: camera, top, side or fisheye. size: (width, height), each 64..8192. samples: per pixel, 1..256.
         repeat: N x N copies of a periodic plot, N odd up to 9; by default 1, or enough for a horizon in a view upwards. range: upper end of the scale of rank-interval, rank-log and map, and of the soil in rank charts, W m-2.
         """
-        width, height = size
+        try:
+            width, height = size
+        except (TypeError, ValueError):
+            refuse(f"size = {size!r}", "must be (width, height)", "give two whole numbers")
         pixels = (whole(width, "size", 64, 8192), whole(height, "size", 64, 8192))
         copies = None if repeat is None else whole(repeat, "repeat", 1, 9)
         if copies is not None and copies % 2 == 0:
             refuse(f"repeat = {copies}", "must be odd: the plot is in the middle of its copies", f"give {copies + 1}")
         top = None if range is None else above_zero(range, "range")
-        return self._outcome.render(chart, field, band or "", view, pixels, whole(samples, "samples", 1, 256), copies, top)
+        names = {"chart": chart, "field": field, "band": "" if band is None else band, "view": view}
+        words = [text(value, name) for name, value in names.items()]
+        return self._outcome.render(*words, pixels, whole(samples, "samples", 1, 256), copies, top)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Result, (KeptOutcome(self._outcome),)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import os
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
 
@@ -14,6 +15,7 @@ import tomli_w
 
 from . import _core
 from ._errors import refuse
+from ._options import path, text
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -31,16 +33,17 @@ class SceneSource:
         self._tables: Union[dict[str, Any], None] = None
         self._content: Union[bytes, None] = None
         if isinstance(scene, Mapping):
-            self.file = Path(folder or ".") / _DICT_NAME
+            self.file = Path(path(folder or ".", "folder")) / _DICT_NAME
             self._absolute = self.file.absolute()
-            self._tables = self._take_meshes(scene)
-            self.text: Union[str, None] = _toml(self._tables)
+            with _refusing_depth():
+                self._tables = self._take_meshes(scene)
+                self.text: Union[str, None] = _toml(self._tables)
             return
         if not isinstance(scene, (str, os.PathLike)):
             refuse(f"scene: {type(scene).__name__}", "must be the path of a scene file or a dict with its keys", "give either")
         if folder is not None:
             refuse("folder", "a scene file has its own folder", "leave it out")
-        self.file = Path(scene)
+        self.file = Path(path(scene, "scene"))
         self._absolute = self.file.absolute()
         self.text = None
 
@@ -63,14 +66,15 @@ class SceneSource:
     def text_with(self, changes: Mapping[str, Any]) -> str:
         """Returns the text with other tables of light and optics; None removes a table."""
         tables = {key: value for key, value in self.tables.items() if key != "geometry"}
-        for key, value in changes.items():
-            if value is None:
-                tables.pop(key, None)
-            elif key in ("optics", "soil"):
-                tables[key] = {**tables.get(key, {}), **_plain(value, key)}
-            else:
-                tables[key] = _plain(value, key)
-        return _toml(tables)
+        with _refusing_depth():
+            for key, value in changes.items():
+                if value is None:
+                    tables.pop(key, None)
+                elif key in ("optics", "soil"):
+                    tables[key] = {**tables.get(key, {}), **_plain(value, key)}
+                else:
+                    tables[key] = _plain(value, key)
+            return _toml(tables)
 
     def _take_meshes(self, scene: Mapping[str, Any]) -> dict[str, Any]:
         tables = {}
@@ -81,7 +85,7 @@ class SceneSource:
                     refuse("geometry", "must be a list of dicts", "put the dict into [ ]")
                 tables[key] = [self._take_mesh(part, number) for number, part in enumerate(parts)]
             else:
-                tables[str(key)] = _plain(value, str(key))
+                tables[text(str(key), "a key of the scene")] = _plain(value, str(key))
         return tables
 
     def _take_mesh(self, part: Any, number: int) -> dict[str, Any]:
@@ -110,10 +114,21 @@ def _toml(tables: Mapping[str, Any]) -> str:
     return tomli_w.dumps(dict(tables))
 
 
+@contextlib.contextmanager
+def _refusing_depth() -> Iterator[None]:
+    try:
+        yield
+    except RecursionError:
+        refuse("scene", "dicts or lists are nested too deeply, or contain themselves", "flatten them")
+
+
 def _plain(value: Any, place: str) -> Any:
     """Converts numpy's numbers and arrays, tuples and paths to TOML's types."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item, f"{place}.{key}") for key, item in value.items() if item is not None}
+        keys = {key: text(str(key), f"a key of {place}") for key in value}
+        return {name: _plain(value[key], f"{place}.{name}") for key, name in keys.items() if value[key] is not None}
+    if isinstance(value, str):
+        text(value, place)
     if isinstance(value, (bool, int, float, str, datetime.datetime)):
         return _moment(value, place) if place.endswith(".time") else value
     if isinstance(value, np.generic):
@@ -123,7 +138,7 @@ def _plain(value: Any, place: str) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item, f"{place}[{number}]") for number, item in enumerate(value)]
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return text(os.fspath(value), place)
     refuse(f"{place}: {type(value).__name__}", "must be a number, string, time, list or dict", "convert it")
 
 
@@ -140,7 +155,10 @@ def _moment(value: Any, place: str) -> Any:
 def _array(value: Any, name: str, kinds: str, wanted: str) -> np.ndarray:
     if np.ma.is_masked(value):
         refuse(f"{name}: a masked array", "every value is used", "leave the masked rows out")
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        refuse(name, "its rows differ in length", "give rows of the same length")
     if array.dtype.kind not in kinds:
         refuse(f"{name}: dtype {array.dtype}", f"must be {wanted}", f"convert it, e.g. with numpy.asarray({name.split('.')[-1]}, ...)")
     return array
@@ -199,14 +217,14 @@ def _names(part: Mapping[str, Any], key: str, fallback: Any, count: int, place: 
     if value is None:
         refuse(name, "is missing", "give the name of an [optics] table for all triangles, or one name for each")
     if isinstance(value, str):
-        return [value], np.zeros(count, dtype=np.uint32)
+        return [text(value, name)], np.zeros(count, dtype=np.uint32)
     array = _array(value, name, "UO", "names")
     if array.shape != (count,):
         refuse(f"{name}: shape {array.shape}", f"must be one name, or one for each of {count} triangles", "correct its length")
     if not all(isinstance(item, str) for item in array.tolist()):
         refuse(f"{name}: an item that is not a string", "must be names", "give a list of str")
     names, number = _distinct(array.astype(str))
-    return [str(item) for item in names], number
+    return [text(str(item), name) for item in names], number
 
 
 def _mesh(part: Mapping[str, Any], place: str) -> Any:

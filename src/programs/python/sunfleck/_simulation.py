@@ -11,7 +11,7 @@ from typing import Any, Optional, Union
 
 from . import _core
 from ._errors import InputError, in_python, refuse
-from ._options import whole, work_options
+from ._options import flag, text, whole, work_options
 from ._progress import Progress, reporting
 from ._result import Result
 from ._scene import Scene, SceneSource
@@ -83,11 +83,10 @@ class Simulation:
     ) -> None:
         self._source = SceneSource(scene, folder)
         self._light: dict[str, Any] = {}
-        checked_threads = whole(threads, "threads", 0, 4096)
+        machine = (text(str(device), "device"), whole(threads, "threads", 0, 4096))
+        access = flag(allow_outside, "allow_outside")
         with self._tidied():
-            self._core = _core.Simulation(
-                os.fspath(self._source.file), self._source.text, self._source.meshes, allow_outside, str(device), checked_threads
-            )
+            self._core = _core.Simulation(os.fspath(self._source.file), self._source.text, self._source.meshes, access, *machine)
         self._source.meshes = {}
         if self._source.text is None:
             self._source.keep(self._core.scene_text)
@@ -118,9 +117,9 @@ class Simulation:
         for key, value in changes.items():
             overlaid = key in ("soil", "optics") and value is not None
             light[key] = {**(light.get(key) or {}), **_checked_table(value, key)} if overlaid else value
-        text = self._source.text_with(light)
+        changed = self._source.text_with(light)
         with self._tidied(always=True):
-            self._core.relight(os.fspath(self._source.present_file), text)
+            self._core.relight(os.fspath(self._source.present_file), changed)
         self._light = light
         self._warn()
 
