@@ -178,6 +178,8 @@ BAD = {
     "points of two": (lambda: CaribuScene({"a": [[(0, 0), (1, 0), (0, 1)]]}), "scene['a']"),
     "ragged triangles": (lambda: CaribuScene({"a": [LOWER, LOWER[:2]]}), "scene['a']"),
     "NaN": (lambda: CaribuScene({"a": [[(0, 0, math.nan), (1, 0, 0), (0, 1, 0)]]}), "NaN"),
+    "a masked corner": (lambda: CaribuScene({"a": np.ma.masked_equal([LOWER], 1.0)}), "scene['a']: a masked array"),
+    "a masked pattern": (lambda: CaribuScene(HALVES, pattern=np.ma.masked_equal([0, 0, 1, 2], 2)), "pattern: a masked array"),
     "light upwards": (lambda: CaribuScene(HALVES, light=[(1.0, (0, 0, 1))]), "light[0] direction"),
     "negative light": (lambda: CaribuScene(HALVES, light=[(-1.0, (0, 0, -1))]), "must not be negative"),
     "light of two": (lambda: CaribuScene(HALVES, light=[(1.0, (0, -1))]), "light[0]"),

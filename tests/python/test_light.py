@@ -33,11 +33,20 @@ def test_times_of_all_kinds_are_one():
 
 @pytest.mark.parametrize(
     "arguments", [("today", 0, 0), (datetime.datetime(2002, 8, 8), 0, 0), (PAPER, 91, 0), (PAPER, 0, 999), (PAPER, float("nan"), 0),
-                  (5, 0, 0), ([1, 2], 0, 0), (np.datetime64("NaT"), 0, 0), ("1500-01-01T00:00:00+00:00", 0, 0)]
+                  (5, 0, 0), ([1, 2], 0, 0), (np.datetime64("NaT"), 0, 0), ("1500-01-01T00:00:00+00:00", 0, 0),
+                  (np.datetime64("300000-01-01", "s"), 40, 0), (np.datetime64(2**62, "s"), 40, 0), (np.datetime64("1899", "Y"), 40, 0),
+                  (PAPER, 40, 0, 1e300), (PAPER, 40, 0, -1000), (PAPER, 40, 0, float("inf")),
+                  (np.ma.array(np.array(["2002-08-08", "2002-08-09"], "M8[s]"), mask=[False, True]), 40, 0)]
 )  # fmt: skip
 def test_bad_times_and_places(arguments):
-    with pytest.raises(ValueError, match=r"\(.*\); "):
+    with pytest.raises(sunfleck.InputError, match=r"\(.*\); ") as error:
         sunfleck.sun_position(*arguments)
+    assert "\n" not in str(error.value) and ".cpp" not in str(error.value)
+
+
+def test_first_and_last_years():
+    for text in ("1900-01-01T00:00", "2100-12-31T23:59"):
+        assert sunfleck.sun_position(np.datetime64(text), 40, 0, 9000) == sunfleck.sun_position(f"{text}:00+00:00", 40, 0, 9000)
 
 
 def level_irradiance(sky, step=0.5):
@@ -87,3 +96,5 @@ def test_bad_skies():
             sunfleck.sky(model, **more)
     with pytest.raises(ValueError, match="must be finite"):
         sunfleck.sky("uniform").radiance(float("nan"), 0.0)
+    with pytest.raises(ValueError, match="masked"):
+        sunfleck.sky("uniform").radiance(np.ma.masked_equal([10.0, 20.0], 20.0), 0.0)

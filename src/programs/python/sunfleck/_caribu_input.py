@@ -10,7 +10,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ._errors import refuse
-from ._options import real
+from ._options import real, refuse_masked
 
 Light = tuple[float, Sequence[float]]
 Material = tuple[float, ...]  # one, two or four fractions
@@ -45,6 +45,7 @@ def checked_scene(scene: Any) -> dict[Any, np.ndarray]:
         refuse(f"scene: {type(scene).__name__}", "must be a dict with at least one primitive", "give {name: [triangle, ...]}")
     checked = {}
     for primitive, triangles in scene.items():
+        refuse_masked(triangles, f"scene[{primitive!r}]")
         try:
             array = np.asarray(triangles, dtype=float)
         except (TypeError, ValueError):
@@ -90,6 +91,7 @@ def checked_pattern(pattern: Any) -> Optional[tuple[float, float, float, float]]
     """Returns xmin, ymin, xmax and ymax, or None for None."""
     if pattern is None:
         return None
+    refuse_masked(pattern, "pattern")
     flat = np.asarray(pattern, dtype=object).ravel().tolist()
     if len(flat) != 4:
         refuse(f"pattern: {len(flat)} numbers", "must be (xmin, ymin, xmax, ymax)", "give four numbers")

@@ -11,14 +11,15 @@ import numpy as np
 
 from . import _core
 from ._errors import refuse
-from ._options import flag, real, whole
+from ._options import flag, real, refuse_masked, whole
 
 
 def sun_position(time: Any, latitude: float, longitude: float, altitude: float = 0.0) -> tuple[Any, Any]:
     """Returns the sun's true elevation (without refraction) and its azimuth clockwise from north, both in degrees.
 
     time: a datetime with a time zone, a string such as "2002-08-08T10:10:00+08:00", a numpy.datetime64 (UTC), or a sequence or
-        array of these; years 1900 to 2100. latitude, longitude: degrees north and east. altitude: m.
+        array of these; years 1900 to 2100. latitude, longitude: degrees north and east. altitude: m above sea level,
+        -500 to 9000.
     Returns floats for one time, arrays of the shape of `time` for several. Within 0.0003 degrees of the NREL algorithm.
     """
     latitude, longitude, altitude = real(latitude, "latitude"), real(longitude, "longitude"), real(altitude, "altitude")
@@ -26,8 +27,11 @@ def sun_position(time: Any, latitude: float, longitude: float, altitude: float =
         refuse(f"latitude = {latitude}", "must lie in -90..90", "give degrees north")
     if not -180.0 <= longitude <= 360.0:
         refuse(f"longitude = {longitude}", "must lie in -180..360", "give degrees east")
+    if not -500.0 <= altitude <= 9000.0:
+        refuse(f"altitude = {altitude}", "must lie in -500..9000", "give metres above sea level")
     if isinstance(time, (datetime.datetime, np.datetime64, str)):
         return _core.sun_position(_unix_seconds(time), latitude, longitude, altitude)
+    refuse_masked(time, "time")
     times = np.asarray(time)
     if times.dtype.kind not in "MOU":
         refuse(f"time: {times.dtype}", "must be times", "give datetime with a time zone, numpy.datetime64 or ISO strings")
@@ -46,6 +50,9 @@ def _unix_seconds(time: Any) -> float:
     if isinstance(time, np.datetime64):
         if np.isnat(time):
             refuse("time = NaT", "must be a time", "remove it")
+        year = 1970 + int(time.astype("datetime64[Y]").astype(np.int64))
+        if not 1900 <= year <= 2100:  # microseconds overflow for others
+            refuse(f"time: the year {year}", "must lie in 1900..2100", "give a time in this range")
         return float(time.astype("datetime64[us]").astype(np.int64)) * 1e-6
     if not isinstance(time, datetime.datetime):
         refuse(f"time: {type(time).__name__}", "must be a datetime", "give datetime with a time zone, numpy.datetime64 or a string")
@@ -66,6 +73,8 @@ class Sky:
         radiance."""
         if self._core.is_list:
             refuse("radiance", "a sky of single lights has no radiance", "use `lights`")
+        for name, angles in (("elevation", elevation), ("azimuth", azimuth)):
+            refuse_masked(angles, name)
         up, around = np.broadcast_arrays(np.asarray(elevation, dtype=float), np.asarray(azimuth, dtype=float))
         if not (np.isfinite(up).all() and np.isfinite(around).all()):
             refuse("elevation, azimuth", "must be finite", "remove NaN and infinity")

@@ -45,6 +45,12 @@ def path(value: Any, name: str) -> str:
     return os.fsdecode(content)
 
 
+def refuse_masked(value: Any, name: str) -> None:
+    """Refuses arrays of which some values are masked, since conversions drop the mask."""
+    if np.ma.is_masked(value):
+        refuse(f"{name}: a masked array", "every value is used", "leave the masked rows out")
+
+
 def flag(value: Any, name: str) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         refuse(f"{name} = {value!r}", "must be True or False", "give one of them")

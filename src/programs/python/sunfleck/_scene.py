@@ -15,7 +15,7 @@ import tomli_w
 
 from . import _core
 from ._errors import refuse
-from ._options import path, text
+from ._options import path, refuse_masked, text
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -153,8 +153,7 @@ def _moment(value: Any, place: str) -> Any:
 
 
 def _array(value: Any, name: str, kinds: str, wanted: str) -> np.ndarray:
-    if np.ma.is_masked(value):
-        refuse(f"{name}: a masked array", "every value is used", "leave the masked rows out")
+    refuse_masked(value, name)
     try:
         array = np.asarray(value)
     except ValueError:
