@@ -81,6 +81,9 @@ def test_arrays_hold_what_the_tables_hold():
 def test_xarray():
     data = sunfleck.day(with_arrays(DAY), **HOURS, grid=0.05, passes=8).to_xarray()
     assert data.sizes == {"time": 5, "organ": 2, "triangle": 3}
+    assert data.attrs["axes"] == "south-up-west"
+    assert data["PAR_incident"].attrs["units"] == "W m-2" and data["step_s"].attrs["units"] == "s"
+    assert all("units" in variable.attrs for variable in data.data_vars.values())
     assert data["organ_PAR_absorbed"].dims == ("time", "organ") and float(data["organ_PAR_absorbed"][4].min()) > 0.0
     assert data["time"].values[0] == np.datetime64("2002-08-07T20:00")
     assert float(data["PAR_absorbed"].isel(time=0).sum()) == 0.0 < float(data["PAR_absorbed"].isel(time=4).sum())

@@ -152,7 +152,7 @@ class DayResult:
     @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
-        BAND_sky_upper, BAND_sky_lower (with a sky), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
+        BAND_sky_upper, BAND_sky_lower (with a sky, parts of BAND_indirect), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
         BAND_absorbed_error. They are 0 in steps at night, unless lamps are lit. Several dates have them only with
         `day(..., triangles=True)`."""
         self._expect_triangles("triangles")
@@ -188,10 +188,12 @@ class DayResult:
         dimensions time (UTC), organ and triangle. Needs xarray."""
         xarray = optional("xarray", "to_xarray")
         times = np.array([_utc(text) for text in self.steps["time"]], dtype="datetime64[ns]")
-        data = xarray.Dataset(coords={"time": times}, attrs={"title": self.summary["scene"], "seed": self.summary["seed"]})
+        of_day = {"title": self.summary["scene"], "seed": self.summary["seed"], "axes": self.summary["axes"]}
+        data = xarray.Dataset(coords={"time": times}, attrs=of_day)
+        units = self._units("day.csv")
         for name, values in self.steps.items():
             if name != "time":
-                data[name] = ("time", values)
+                data[name] = ("time", values, {"units": units[name]})
         organs = dict(self.organ_steps)
         del organs["time"]
         for name in ("organ", "role", "plant", "rank", "area_m2"):

@@ -76,8 +76,8 @@ class Result:
 
         plant, rank; organ and optics (names); organ_index (row in `organs`); area_m2 (one-sided); x, y, z
         (centroid after wrapping, m); BAND_direct_upper, BAND_direct_lower, BAND_indirect_upper, BAND_indirect_lower, with a sky
-        BAND_sky_upper, BAND_sky_lower (incident on a face, W m-2), BAND_total (incident on both), BAND_absorbed,
-        BAND_absorbed_error.
+        BAND_sky_upper, BAND_sky_lower (incident on a face, W m-2; BAND_sky is part of BAND_indirect, which is all light but the
+        direct), BAND_total (incident on both), BAND_absorbed, BAND_absorbed_error.
         """
         return triangle_columns(self._outcome)
 
@@ -167,7 +167,7 @@ class Result:
     def to_xarray(self) -> xarray.Dataset:
         """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, corners also by `vertex`, the profile by
         `plane_height`, the balance by `band`, means of sensors by `sensor`, their points by `sensor_point`. Maps are in the list
-        `planes` instead.
+        `planes` instead. `organ` and `optics` are names; in results.nc they are numbers, whose names organ_name and optics_name hold.
         Needs xarray."""
         xarray = optional("xarray", "to_xarray")
 
