@@ -75,7 +75,7 @@ void check_pictures(const ResultRequest& request, const RadiationModel& model);
 // What drawing needs in addition to the result.
 struct DrawingHooks {
   ProfileOverlays overlays;
-  StopQuestion stop = interrupted;  // leaves the remaining pictures out; asked by several threads
+  StopQuestion stop = interrupted;  // leaves the remaining pictures out
 };
 
 // Writes everything into the prepared folder, the summary last. Completes the record, which begins as the result's own, with

@@ -278,10 +278,14 @@ def test_scene_files_of_windows(scene_file):
     scene_file.write_text(text, encoding="utf-8-sig")
     relit = sunfleck.run(scene_file, **WORK, sun={"elevation": 20.0, "azimuth": 130.0})
     assert np.array_equal(relit["PAR_absorbed"], expected)
-    assert sunfleck.sweep(scene_file, optics={"leaf": {"reflectance": [0.1]}}, **WORK)[0].complete
+
+    def sweep(scene, **work):
+        return sunfleck.sweep(scene, optics={"leaf": {"reflectance": [0.1]}}, **work)
+
+    assert sweep(scene_file, **WORK)[0].complete
     for content in (text.replace("three", "trois \xe9").encode("latin-1"), b"\x89PNG\r\n\x1a\n\x00\xff"):
         scene_file.write_bytes(content)
-        for simulate in (sunfleck.run, lambda scene, **work: sunfleck.sweep(scene, optics={"leaf": {"reflectance": [0.1]}}, **work)):
+        for simulate in (sunfleck.run, sweep):
             with pytest.raises(sunfleck.InputError, match="scene.toml:"):
                 simulate(scene_file, **WORK)
 

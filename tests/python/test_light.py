@@ -34,8 +34,8 @@ def test_times_of_all_kinds_are_one():
 @pytest.mark.parametrize(
     "arguments", [("today", 0, 0), (datetime.datetime(2002, 8, 8), 0, 0), (PAPER, 91, 0), (PAPER, 0, 999), (PAPER, float("nan"), 0),
                   (5, 0, 0), ([1, 2], 0, 0), (np.datetime64("NaT"), 0, 0), ("1500-01-01T00:00:00+00:00", 0, 0),
-                  (np.datetime64("300000-01-01", "s"), 40, 0), (np.datetime64(2**62, "s"), 40, 0), (np.datetime64("1899", "Y"), 40, 0),
-                  (PAPER, 40, 0, 1e300), (PAPER, 40, 0, -1000), (PAPER, 40, 0, float("inf")),
+                  (np.datetime64("300000-01-01", "s"), 40, 0), (np.datetime64(2**62, "s"), 40, 0),
+                  (np.datetime64("1899", "Y"), 40, 0), (PAPER, 40, 0, 1e300), (PAPER, 40, 0, -1000), (PAPER, 40, 0, float("inf")),
                   (np.ma.array(np.array(["2002-08-08", "2002-08-09"], "M8[s]"), mask=[False, True]), 40, 0)]
 )  # fmt: skip
 def test_bad_times_and_places(arguments):

@@ -229,7 +229,8 @@ DAY_TABLES = ("steps", "sums", "season", "organs", "plants", "organ_steps", "sen
 def test_arrays_are_read_only(result):
     sun = {"time": "2002-08-08T10:10:00+08:00", "latitude": 40.0, "longitude": 116.0}
     moving = with_arrays({**TABLES, "sun": sun, "band": [{"name": "PAR", "direct_normal": 400.0, "diffuse": 40.0}]})
-    day = sunfleck.day({**moving, "optics": BLACK["optics"], "soil": {"reflectance": 0.1}}, step=180, grid=0.1, passes=8, device="cpu")
+    scene = {**moving, "optics": BLACK["optics"], "soil": {"reflectance": 0.1}}
+    day = sunfleck.day(scene, step=180, grid=0.1, passes=8, device="cpu")
     for owner, tables in ((result, RESULT_TABLES), (day, DAY_TABLES)):
         for again in (owner, pickle.loads(pickle.dumps(owner))):
             for table in tables:

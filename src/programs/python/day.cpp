@@ -82,9 +82,8 @@ class Day {
     for (std::size_t b = 0; b < model.bands.size(); ++b) {
       for (std::size_t k = 0; k < kinds.size(); ++k) {
         const auto name = fmt::format("{}_{}", model.bands[b].name, ending(kinds[k]));
-        columns[name.c_str()] =
-            read_only(array_of(of_steps(day_.fields, (b * kinds.size() + k) * elements, elements, 0.0F),
-                               {signed_size(day_.fields.size()), signed_size(elements)}));
+        columns[name.c_str()] = read_only(array_of(of_steps(day_.fields, (b * kinds.size() + k) * elements, elements, 0.0F),
+                                                   {signed_size(day_.fields.size()), signed_size(elements)}));
       }
     }
     return columns;
@@ -101,9 +100,9 @@ class Day {
       py::dict columns;
       columns["height_m"] = plane.height_m;
       const auto add = [&](const std::string& name, float unlit) {
-        columns[name.c_str()] = read_only(
-            array_of(of_steps(day_.maps, begin, cells, unlit),
-                     {signed_size(day_.maps.size()), signed_size(map.second.cells), signed_size(map.first.cells)}));
+        columns[name.c_str()] =
+            read_only(array_of(of_steps(day_.maps, begin, cells, unlit),
+                               {signed_size(day_.maps.size()), signed_size(map.second.cells), signed_size(map.first.cells)}));
         begin += cells;
       };
       add("sunfleck", std::numeric_limits<float>::quiet_NaN());

@@ -123,8 +123,8 @@ class DayResult:
     @functools.cached_property
     def planes(self) -> dict[str, Any]:
         """The light through horizontal planes at each step, the columns of planes_day.csv: time (texts); height_m by plane, in
-        ascending order; and arrays of shape (steps, planes): sunfleck_ratio, BAND_down (W m-2), with photon units BAND_down_umol_m2_s, with their
-        half-widths _error. Empty without planes."""
+        ascending order; and arrays of shape (steps, planes): sunfleck_ratio, BAND_down (W m-2), with photon units
+        BAND_down_umol_m2_s, with their half-widths _error. Empty without planes."""
         return self._columns("planes_day.csv")
 
     @functools.cached_property
@@ -144,16 +144,16 @@ class DayResult:
 
     @functools.cached_property
     def plane_steps(self) -> list[dict[str, Any]]:
-        """The maps of each plane at each step, in ascending order of height: height_m, and arrays of shape (steps, rows, cells) in single precision: sunfleck (NaN
-        without a beam), BAND_direct and BAND_total (W m-2). Kept as `triangles` are."""
+        """The maps of each plane at each step, in ascending order of height: height_m, and arrays of shape (steps, rows, cells) in
+        single precision: sunfleck (NaN without a beam), BAND_direct and BAND_total (W m-2). Kept as `triangles` are."""
         self._expect_triangles("plane_steps")
         return self._core.plane_steps()
 
     @functools.cached_property
     def triangles(self) -> dict[str, np.ndarray]:
         """The fields of day.nc in single precision, shape (steps, triangles), W m-2: BAND_direct_upper, BAND_direct_lower,
-        BAND_sky_upper, BAND_sky_lower (with a sky, parts of BAND_indirect), BAND_indirect_upper, BAND_indirect_lower, BAND_absorbed,
-        BAND_absorbed_error. They are 0 in steps at night, unless lamps are lit. Several dates have them only with
+        BAND_sky_upper, BAND_sky_lower (with a sky, parts of BAND_indirect), BAND_indirect_upper, BAND_indirect_lower,
+        BAND_absorbed, BAND_absorbed_error. They are 0 in steps at night, unless lamps are lit. Several dates have them only with
         `day(..., triangles=True)`."""
         self._expect_triangles("triangles")
         return self._core.triangles()

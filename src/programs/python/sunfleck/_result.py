@@ -40,11 +40,11 @@ def _with_error(value: float, half_width: Optional[float]) -> str:
 class Result:
     """The results of one simulation. BAND stands for the name of a band, such as PAR.
 
-    Fluxes are in W m-2, or in the band's own unit of irradiance; NAME_error is the half-width of the confidence interval of NAME, in
-    its unit; it includes the unshot flux and is NaN if there are too few hits. Coordinates are in metres in the scene's own axes:
-    X south, Y up, Z west, or x east, y north, z up with axes = "east-north-up". Arrays are computed on first access and are
-    read-only, since every access returns the same one: copy an array to change it. Texts are arrays of fixed width (dtype <U), so that
-    `result["organ"] == "leaf"` is a mask. `organ` is everywhere the organ's name, `organ_index` its row in `organs`.
+    Fluxes are in W m-2, or in the band's own unit of irradiance; NAME_error is the half-width of the confidence interval of NAME,
+    in its unit; it includes the unshot flux and is NaN if there are too few hits. Coordinates are in metres in the scene's own
+    axes: X south, Y up, Z west, or x east, y north, z up with axes = "east-north-up". Arrays are computed on first access and are
+    read-only, since every access returns the same one: copy an array to change it. Texts are arrays of fixed width (dtype <U), so
+    that `result["organ"] == "leaf"` is a mask. `organ` is everywhere the organ's name, `organ_index` its row in `organs`.
 
     A result can be copied and pickled: it then keeps its arrays, its summary and its short tables, but not the scene, so
     that it cannot be saved or rendered any more.
@@ -113,9 +113,9 @@ class Result:
 
     @functools.cached_property
     def planes(self) -> list[dict[str, Any]]:
-        """One dict per [[plane]], in ascending order of height: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its _error, and maps of shape
-        (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards). With the axes x east, y north, z up
-        there is y_m instead of z_m, and the maps have the shape (cells along y, cells along x)."""
+        """One dict per [[plane]], in ascending order of height: height_m, x_m, z_m (centres of the cells), sunfleck_ratio and its
+        _error, and maps of shape (cells along Z, cells along X): sunfleck, BAND_direct, BAND_total (W m-2 downwards). With the axes
+        x east, y north, z up there is y_m instead of z_m, and the maps have the shape (cells along y, cells along x)."""
         return self._outcome.planes()
 
     @functools.cached_property
@@ -167,8 +167,8 @@ class Result:
     def to_xarray(self) -> xarray.Dataset:
         """Returns the variables of results.nc as an xarray Dataset: fields by `triangle`, corners also by `vertex`, the profile by
         `plane_height`, the balance by `band`, means of sensors by `sensor`, their points by `sensor_point`. Maps are in the list
-        `planes` instead. `organ` and `optics` are names; in results.nc they are numbers, whose names organ_name and optics_name hold.
-        Needs xarray."""
+        `planes` instead. `organ` and `optics` are names; in results.nc they are numbers, whose names organ_name and optics_name
+        hold. Needs xarray."""
         xarray = optional("xarray", "to_xarray")
 
         def variables(table: str, dimension: str, columns: dict[str, Any]) -> dict[str, Any]:

@@ -45,7 +45,8 @@ def of_dict(message: str, source: SceneSource) -> str:
 def _checked_table(table: Any, place: str) -> Mapping[str, Any]:
     """Returns the table of soil or optics if it has a value for each of its keys."""
     if not isinstance(table, Mapping):
-        refuse(f"{place}: {type(table).__name__}", "must be a dict", 'give {"leaf": {...}}' if place == "optics" else 'give {"reflectance": 0.2}')
+        example = '{"leaf": {...}}' if place == "optics" else '{"reflectance": 0.2}'
+        refuse(f"{place}: {type(table).__name__}", "must be a dict", f"give {example}")
     for key, value in table.items():
         if value is None:
             refuse(f"{place}.{key} = None", "is no value", "leave it out to keep what the scene has")

@@ -26,8 +26,9 @@ _PAR_UMOL_PER_JOULE = 4.57  # of sunlight, as the program assumes it (McCree 197
 class Variant:
     """The results of one variant of a sweep, under the names that they have in a `Result`.
 
-    `number` is that of the variant, from 0. All variants share their packets, so that their errors are correlated: a difference between
-    two of them is known better than their errors say. Arrays are read-only, as variants share many of them: copy an array to change it.
+    `number` is that of the variant, from 0. All variants share their packets, so that their errors are correlated: a difference
+    between two of them is known better than their errors say. Arrays are read-only, as variants share many of them: copy an array
+    to change it.
     """
 
     def __init__(self, result: Result, bands: Sequence[str], number: int) -> None:
