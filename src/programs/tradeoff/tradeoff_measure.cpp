@@ -24,9 +24,9 @@ namespace {
 constexpr double widest_bound = 0.02;
 constexpr std::size_t least_bounds = 3, most_bounds = 10;
 constexpr double growth_per_bound = 4.0;
+constexpr double most_of_reference = 1.0;
 // The light of triangles takes a run as long as about that many rays for each of them.
 constexpr double rays_per_triangle = 10.0;
-constexpr double most_of_reference = 1.0;
 // Offset of the seeds of the reference's parts, which keeps them apart from those of the runs.
 constexpr std::uint64_t reference_seed = std::uint64_t{1} << 40U;
 
@@ -51,12 +51,12 @@ class TradeoffMeasurement {
     if (!measure_references()) return false;
     for (std::size_t k = 0; k < plan_.grids_m.size(); ++k) {
       const SolveSettings settings = grid_settings(settings_, plan_.grids_m[k]);
-      const int seeds = options_.seeds * seeds_factor(plan_.grids_m.size() - 1 - k);
+      const int seeds = seeds_of(plan_.grids_m, k);
       if (!measure({TradeoffSeries::grids, plan_.grids_m[k], {}}, direct_light_, settings, seeds)) return false;
     }
     for (std::size_t k = 0; k < plan_.packets.size(); ++k) {
       const SolveSettings settings = packet_settings(settings_, all_light_.model(), plan_.packets[k]);
-      const int seeds = options_.seeds * seeds_factor(plan_.packets.size() - 1 - k);
+      const int seeds = seeds_of(plan_.packets, k);
       if (!measure({TradeoffSeries::packets, plan_.packets[k], {}}, all_light_, settings, seeds)) return false;
     }
     if (!measure_bounds()) return false;
@@ -66,17 +66,19 @@ class TradeoffMeasurement {
  private:
   // Adds up the work of all runs, of which those to bounds are a guess.
   void foresee() {
-    const double of_reference = reference_rays() + reference_packets();
-    foreseen_ = of_reference + reference_parts * work_beside_rays();
-    if (!plan_.grids_m.empty()) foreseen_ += reference_rays() + reference_parts * work_beside_rays();
-    const auto add = [&](std::size_t before_last, double rays) {
-      foreseen_ += options_.seeds * seeds_factor(before_last) * (rays + work_beside_rays());
-    };
+    const auto add = [&](int runs, double rays) { foreseen_ += runs * (rays + work_beside_rays()); };
+    const double rays_of_part = reference_rays() / reference_parts, packets_of_part = reference_packets() / reference_parts;
+    add(reference_parts, rays_of_part + packets_of_part);
+    if (!plan_.grids_m.empty()) add(reference_parts, rays_of_part);
     for (std::size_t k = 0; k < plan_.grids_m.size(); ++k)
-      add(plan_.grids_m.size() - 1 - k, all_light_.model().plot.area_m2() / (plan_.grids_m[k] * plan_.grids_m[k]));
+      add(seeds_of(plan_.grids_m, k), all_light_.model().plot.area_m2() / (plan_.grids_m[k] * plan_.grids_m[k]));
     for (std::size_t k = 0; k < plan_.packets.size(); ++k)
-      add(plan_.packets.size() - 1 - k, 2.0 * tradeoff_replicates * plan_.packets[k]);
-    foreseen_ += options_.seeds * (of_reference + static_cast<double>(least_bounds) * work_beside_rays());
+      add(seeds_of(plan_.packets, k), 2.0 * tradeoff_replicates * plan_.packets[k]);
+    add(options_.seeds * static_cast<int>(least_bounds), rays_of_part + packets_of_part);
+  }
+  // Returns the number of runs of a setting of the plan; cheap settings have more.
+  [[nodiscard]] int seeds_of(const std::vector<double>& settings, std::size_t k) const {
+    return options_.seeds * seeds_factor(settings.size() - 1 - k);
   }
   // Returns what a run does beside tracing, the light of triangles, in rays.
   [[nodiscard]] double work_beside_rays() const {
@@ -261,7 +263,7 @@ class TradeoffMeasurement {
   const std::filesystem::path& table_;
   std::array<TradeoffReference, 3> references_;  // [light]
   const Stopwatch since_start_;
-  double foreseen_ = 1.0;  // rays and packets, and other work in rays, as far as can be predicted
+  double foreseen_ = 0.0;  // rays and packets, and other work in rays, as far as can be predicted
   double work_ = 0.0;      // the part of it that is done
   std::uint64_t rays_ = 0, last_direct_ = 0, last_indirect_ = 0;
   double finest_bound_ = widest_bound;
