@@ -54,7 +54,8 @@ class ProgressLine {
 [[nodiscard]] std::string progress_text(std::string_view task, const ProgressLine::State& state, double elapsed_s,
                                         int bar_width);
 
-// Returns that text in as many columns at most: the bar gets shorter, then is left out, then the error is; only what remains is cut.
+// Returns that text in at most as many columns: the bar gets shorter, then is left out, then the error is; only what remains is
+// cut.
 [[nodiscard]] std::string fitted_progress_text(std::string_view task, ProgressLine::State state, double elapsed_s,
                                                std::size_t columns);
 

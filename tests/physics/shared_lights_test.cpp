@@ -219,8 +219,8 @@ TEST(SharedLightSums, HaveErrorsThatIncludeTheirCorrelation) {
   EXPECT_NEAR(stated / real, 1.0, 0.28);
 }
 
-// A packet that starts where only one of the lights shines may carry twice the part of that light's flux that it would carry alone, so
-// that what nothing reached in either light may have missed twice as much.
+// A packet that starts where only one of the two lights shines may carry twice the part of that light's flux that it would carry
+// alone, so that what nothing reached in either light may have missed twice as much.
 TEST(SharedLightErrors, OfWhatNothingReachesAllowForPacketsOfOneLight) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);

@@ -48,7 +48,8 @@ using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
 using Numbers = pybind11::array_t<std::uint32_t, pybind11::array::c_style>;
 
 // Returns a mesh. vertices: [vertex][3], m; triangles: [triangle][3], vertex numbers; optics, organs: [triangle], indices into
-// the names that follow them; keeps_plants as in Mesh. Throws ValueError for other shapes; import_mesh checks the ranges of the numbers.
+// the names that follow them; keeps_plants as in Mesh. Throws ValueError for other shapes; import_mesh checks the ranges of the
+// numbers.
 [[nodiscard]] Mesh mesh_of(const Doubles& vertices, const Numbers& triangles, const Numbers& optics,
                            const std::vector<std::string>& optics_names, const Numbers& organs,
                            const std::vector<std::tuple<std::uint32_t, std::string, int>>& organ_names, bool keeps_plants);

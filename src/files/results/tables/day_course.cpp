@@ -104,8 +104,8 @@ struct Sums {
     }
   }
 
-  // Returns the error of a term of flux_terms for steps that share packets; nothing for others. In an endless canopy the incident flux
-  // is exact.
+  // Returns the error of a term of flux_terms for steps that share packets; nothing for others. In an endless canopy the incident
+  // flux is exact.
   static std::optional<double> shared_term(const StepLight& light, std::size_t band, std::size_t term) {
     if (!light.shares_packets) return std::nullopt;
     const JointErrors::Band& errors = light.of_shared.bands[band];
