@@ -56,7 +56,7 @@ class StationReader {
     WeatherFile result;
     result.weather.source = Weather::Source::intervals;
     result.weather.intervals = std::move(intervals_);
-    result.weather.zone_minutes = zone_minutes_.value_or(0);
+    result.weather.zone_minutes = zone_minutes_;
     return result;
   }
 
@@ -199,7 +199,7 @@ class StationReader {
       refuse_line(file_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
                   "correct the year");
     }
-    if (!zone_minutes_) zone_minutes_ = *offset;
+    if (intervals_.empty()) zone_minutes_ = *offset;
     return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
   }
 
@@ -224,7 +224,7 @@ class StationReader {
   std::vector<std::string_view> cells_;
   std::size_t line_ = 0;
   std::vector<WeatherInterval> intervals_;
-  std::optional<int> zone_minutes_;  // of the first row
+  int zone_minutes_ = 0;  // of the first row
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ double LightEvents::largest_w_m2(std::size_t band) const {
 // A packet carries what a side of its place sends, divided by the number of packets expected from there. That number is the packets
 // of the first round times the mean, over the scattering bands, of the quanta that the side sends divided by all quanta waiting at
 // the start. With light in one band only, a packet carries at most that band's start times the number of scattering bands, divided
-// by the packets (see PacketDraw).
+// by the packets (see PacketDraw). Several lights share these evenly, so that `packets` are those of one light.
 LightEvents make_light_events(const RadiationModel& model, const std::vector<BandQuanta>& quanta, const Incidence& incidence) {
   LightEvents events;
   double scattering_bands = 0.0;
