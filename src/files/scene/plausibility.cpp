@@ -98,7 +98,8 @@ void warn_of_leafless_plants(const Canopy& canopy, const Surfaces& surfaces, con
   const auto& [number, plant] = *std::find_if(plants.begin(), plants.end(), leafless);
   warnings.push_back(fmt::format(
       "{}: {} of {} plants {} no leaf that would count in the leaf area index, e.g. plant {}, whose organ \"{}\" is a "
-      "{}; if it is a leaf, add role = \"leaf\" to [optics.{}] or to the [[geometry]]",
+      "{}; if it is a leaf, add role = \"leaf\" to [optics.{}] or to the [[geometry]]; if its leaves are in another "
+      "[[geometry]], give both the same plant, such as plant = 1",
       file, count, plants.size(), count == 1 ? "has" : "have", number, printable(canopy.organs[plant.example.organ].name),
       role_name(plant.example.role), printable(canopy.optics_names[plant.example.optics])));
 }

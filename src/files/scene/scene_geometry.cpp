@@ -31,7 +31,7 @@ constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the gener
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
-  for (const char* key : {"optics", "up", "scale", "heading", "at", "positions", "role", "split", "instances"}) {
+  for (const char* key : {"optics", "up", "scale", "heading", "at", "positions", "plant", "role", "split", "instances"}) {
     if (table.has(key))
       table.refuse(key, "it is only for files; a generated stand fills the plot from its corner", "remove it");
   }
@@ -193,10 +193,10 @@ SurfaceOptics soil_optics(const std::string& name, const Soil& soil) {
 void allow_keys(const TomlTable& table, const SceneText& source) {
   if (source.meshes.empty()) {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "optics", "up", "scale", "heading", "at",
-                 "positions", "role", "split", "instances"});
+                 "positions", "plant", "role", "split", "instances"});
   } else {
     table.allow({"generator", "rows", "per_row", "spacing", "seed", "file", "mesh", "optics", "up", "scale", "heading", "at",
-                 "positions", "role", "split", "instances"});
+                 "positions", "plant", "role", "split", "instances"});
   }
 }
 

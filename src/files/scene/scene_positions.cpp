@@ -12,9 +12,11 @@ namespace sunfleck {
 
 namespace {
 
+constexpr std::int64_t largest_plant = 1'000'000'000;
+
 std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::filesystem::path& scene_file, const Plot& plot,
                                           const SceneAccess& access) {
-  for (const char* key : {"at", "heading"}) {
+  for (const char* key : {"at", "heading", "plant"}) {
     if (geometry.has(key)) {
       geometry.refuse(key, "positions is also given", fmt::format("give {} in that file, or remove positions", key));
     }
@@ -49,6 +51,8 @@ std::vector<Placement> read_placements(const TomlTable& geometry, const std::fil
   for (std::size_t i = 0; i < positions_m.size(); ++i) {
     placements.push_back({.position_m = scene_position_m(plot, positions_m[i]), .heading_rad = glm::radians(headings_deg[i])});
   }
+  auto plant = geometry.integer("plant", 1, largest_plant);
+  for (std::size_t i = 0; plant && i < placements.size(); ++i) placements[i].plant = static_cast<std::uint32_t>((*plant)++);
   return placements;
 }
 
@@ -59,18 +63,25 @@ void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std:
     if (organ.plant > 0) own.insert(organ.plant);
   }
   if (own.empty()) return;
+  const char* const key = geometry.has("positions") ? "positions" : "plant";
   for (std::size_t copy = 0; copy < placements.size(); ++copy) {
     const std::optional<std::uint32_t>& given = placements[copy].plant;
     if (given && own.size() > 1) {
-      geometry.refuse("positions", fmt::format("its plants have numbers, but the mesh consists of {} plants", own.size()),
-                      "remove the column plant; the plants are then numbered in the order of the file");
+      geometry.refuse(key, fmt::format("its plants have numbers, but the mesh consists of {} plants", own.size()),
+                      fmt::format("remove {}; the plants are then numbered in their order",
+                                  geometry.has("positions") ? "the column plant" : "it"));
     }
-    if (given && plants.used.contains(*given)) {
-      geometry.refuse("positions", fmt::format("plant {} is there already, from an earlier [[geometry]]", *given),
-                      fmt::format("use numbers above {}", *plants.used.rbegin()));
+    if (given && plants.counted.contains(*given)) {
+      geometry.refuse(key, fmt::format("plant {} is there already, from an earlier [[geometry]]", *given),
+                      fmt::format("use numbers above {}, or give that one numbers, too, if both are parts of one plant",
+                                  *plants.counted.rbegin()));
     }
     plants.numbers.begin_copy(mesh, copy, placements[copy]);
-    for (const std::uint32_t plant : own) plants.used.insert(plants.numbers.of(plant));
+    const bool counts = !given && !(mesh.keeps_plants && copy == 0);
+    for (const std::uint32_t plant : own) {
+      const std::uint32_t number = plants.numbers.of(plant);
+      if (counts) plants.counted.insert(number);
+    }
   }
 }
 

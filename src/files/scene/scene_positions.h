@@ -1,5 +1,5 @@
 #pragma once
-// Reads where the copies of a mesh stand: `at` and `heading`, or `positions`, of a [[geometry]].
+// Reads where the copies of a mesh stand: `at`, `heading` and `plant`, or `positions`, of a [[geometry]].
 
 #include "files/scene/scene_reader.h"
 #include "files/scene/toml_view.h"
@@ -20,11 +20,11 @@ namespace sunfleck {
 // The plants of the geometry so far.
 struct UsedPlants {
   PlantNumbers numbers;
-  std::set<std::uint32_t> used;
+  std::set<std::uint32_t> counted;  // numbers that the scene does not give
 };
 
-// Refuses plant numbers of a file of positions for a mesh with several plants, and those that are in use already. The plants of
-// this mesh are added to `plants`.
+// Refuses plant numbers that the scene gives a mesh with several plants, and those that plants without given numbers have already: parts
+// of one plant must all give its number. The plants of this mesh are added to `plants`.
 void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
                          UsedPlants& plants);
 

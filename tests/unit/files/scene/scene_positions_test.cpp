@@ -57,6 +57,39 @@ TEST_F(Positions, NumberThePlants) {
   EXPECT_EQ(canopy.plants, (std::vector<PlantSite>{{12, {3, 0, 4}}, {207, {1, 0, 2}}, {208, {5, 0, 6}}}));
 }
 
+TEST_F(Positions, MakePartsOfOnePlantWithItsNumber) {
+  const std::string stems = "[[geometry]]\nfile = \"stem.obj\"\noptics = \"leaf\"\n";
+  folder_.write("stem.obj", "v 0 0 0\nv 0 1 0\nv 0 1 1\nf 1 2 3\n");
+  const std::string file = "positions = \"plants.csv\"\n";
+  const std::vector<PlantSite> sites = {{5, {1, 0, 2}}, {6, {3, 0, 4}}};
+  const auto plants_of = [](const Canopy& canopy) {
+    std::vector<std::uint32_t> numbers;
+    for (const Organ& organ : canopy.organs) numbers.push_back(organ.plant);
+    return numbers;
+  };
+  const std::string counted = "plant = 5\nat = [[1, 0, 2], [3, 0, 4]]\n";
+  for (const std::string& more : {file + stems + file, counted + stems + counted, file + stems + counted}) {
+    const Canopy canopy = read("plant,x,z\n5,1,2\n6,3,4\n", more).model.canopy;
+    EXPECT_EQ(plants_of(canopy), (std::vector<std::uint32_t>{5, 6, 5, 6})) << more;
+    EXPECT_EQ(canopy.plants, sites) << more;
+  }
+}
+
+TEST_F(Positions, RefuseNumbersOfPlantsThatAreNumberedWithoutThem) {
+  EXPECT_EQ(refusal("x,z\n1,2\n", "at = [[0, 0, 0], [1, 0, 1]]\n" + plants + "plant = 2\n"),
+            "scene.toml:19: geometry.plant = 2 (plant 2 is there already, from an earlier [[geometry]]); use numbers above 2, "
+            "or give "
+            "that one numbers, too, if both are parts of one plant");
+  EXPECT_EQ(refusal("x,z\n1,2\n", "positions = \"plants.csv\"\nplant = 2\n").substr(0, 56),
+            "scene.toml:16: geometry.plant = 2 (positions is also giv");
+  EXPECT_NE(refusal("x,z\n1,2\n", "plant = 0\n").find("geometry.plant = 0 (must be a whole number in 1..1000000000)"),
+            std::string::npos);
+  EXPECT_NE(refusal("x,z\n1,2\n", "[[geometry]]\ngenerator = \"maize\"\nplant = 1\n").find("geometry.plant"),
+            std::string::npos);
+  folder_.write("leaf.obj", "v 0 1 0\nv 0 1 1\nv 1 1 0\no plant1_leaf1\nf 1 2 3\no plant2_leaf1\nf 1 2 3\n");
+  EXPECT_NE(refusal("x,z\n1,2\n", "plant = 1\n").find("the mesh consists of 2 plants"), std::string::npos);
+}
+
 TEST_F(Positions, AreAFileOfTheScene) {
   const Scene scene = read("x,z\n1,2\n");
   EXPECT_TRUE(std::any_of(scene.files.begin(), scene.files.end(),
@@ -72,7 +105,7 @@ TEST_F(Positions, RefuseWhatContradictsThem) {
   EXPECT_NE(refusal("x,z\n1,2\n", "positions = \"../plants.csv\"\n").find("outside the scene's folder"), std::string::npos);
   EXPECT_EQ(refusal("plant,x,z\n1,1,2\n", "at = [[0, 0, 0]]\n" + plants + "positions = \"plants.csv\"\n"),
             "scene.toml:19: geometry.positions = \"plants.csv\" (plant 1 is there already, from an earlier [[geometry]]); use "
-            "numbers above 1");
+            "numbers above 1, or give that one numbers, too, if both are parts of one plant");
   folder_.write("leaf.obj", "v 0 1 0\nv 0 1 1\nv 1 1 0\no plant1_leaf1\nf 1 2 3\no plant2_leaf1\nf 1 2 3\n");
   EXPECT_NE(refusal("plant,x,z\n1,1,2\n").find("the mesh consists of 2 plants"), std::string::npos);
 }
