@@ -73,7 +73,7 @@ ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& su
           {"split_in_parts", survey.needs_split()},
           {"pieces", survey.shape.pieces},
           {"closed_pieces", survey.closed_pieces},
-          {"usual_piece_m2", survey.shape.usual_piece * unit_m2},
+          {"usual_piece_m2", survey.shape.usual_leaf * unit_m2},
           {"area_below_ground_m2", survey.area_below_ground * unit_m2},
           {"defects",
            {{"zero_area", survey.defects.flat_triangles},

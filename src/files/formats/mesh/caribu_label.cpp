@@ -1,13 +1,13 @@
 #include "files/formats/mesh/caribu_label.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "physics/canopy/canopy.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
+#include <string_view>
 
 namespace sunfleck {
 
@@ -21,13 +21,12 @@ constexpr int most_leaf = 999;
                 "choose another format");
 }
 
-// Returns the species, which has one digit: 2 for leaf2, 1 for leaf and any other ending.
+// Returns the species, which has one digit: 2 for leaf2 and stem2, 1 for any other name. The numbers of other names count organs.
 unsigned species_of(const std::string& name) {
-  constexpr unsigned most_species = 9;
-  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
-  unsigned species = 1;
-  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), species);
-  return error == std::errc() && species <= most_species ? species : 1;
+  constexpr std::string_view species = "123456789";
+  const std::string lower = lower_case(name);
+  const bool numbered = lower.size() == 5 && (lower.starts_with("leaf") || lower.starts_with("stem"));
+  return numbered && species.find(lower.back()) != species.npos ? static_cast<unsigned>(lower.back() - '0') : 1;
 }
 
 }  // namespace
@@ -36,7 +35,7 @@ std::string caribu_label(const Organ& organ, std::size_t number_in_organ) {
   constexpr std::size_t element_numbers = 1000;
   if (organ.plant > most_plant) refuse("plant", organ.plant, most_plant);
   if (organ.rank < 0 || organ.rank > most_leaf) refuse("leaf", organ.rank, most_leaf);
-  const std::optional<Role> role = role_from_name(organ.name);
+  const std::optional<Role> role = organ.role ? organ.role : role_from_name(organ.name);
   const unsigned species = role == Role::soil ? 0 : species_of(organ.name);
   const int leaf = role == Role::leaf ? std::max(organ.rank, 1) : 0;
   return fmt::format("{}{:05}{:03}{:03}", species, organ.plant, leaf, number_in_organ % element_numbers);

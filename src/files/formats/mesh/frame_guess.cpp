@@ -11,7 +11,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::array<FileAxis, 3> every_axis = {FileAxis::x, FileAxis::y, FileAxis::z};
-constexpr std::size_t least_pieces = 3;
+constexpr std::size_t least_leaf_pieces = 3;
 
 int index_of(FileAxis axis) {
   return static_cast<int>(axis);
@@ -31,34 +31,37 @@ double score_of(const ShapeFigures& shape, FileAxis axis) {
 }
 
 std::string why_up(const ShapeFigures& shape, FileAxis up) {
+  constexpr double least_net = 0.05;
   const int a = index_of(up);
+  const bool has_net = shape.net_facing[a] >= least_net;
+  const glm::dvec3& facing = has_net ? shape.net_facing : shape.facing;
   double others = 0.0;
   for (const FileAxis axis : every_axis)
-    if (axis != up) others = std::max(others, shape.net_facing[index_of(axis)]);
-  return fmt::format(
-      "net of opposite sides, {:.0f} % of the area faces along {} and at most {:.0f} % along another axis; {} {}",
-      100.0 * shape.net_facing[a], axis_name(up), 100.0 * others, axis_name(up),
-      standing(shape, up) > 0.5 ? "begins near 0" : fmt::format("begins at {:.4g}", shape.lo[a]));
+    if (axis != up) others = std::max(others, facing[index_of(axis)]);
+  return fmt::format("{}, {:.0f} % of the area faces along {} and at most {:.0f} % along another axis; {} {}",
+                     has_net ? "net of opposite sides" : "either way round", 100.0 * facing[a], axis_name(up), 100.0 * others,
+                     axis_name(up), standing(shape, up) > 0.5 ? "begins near 0" : fmt::format("begins at {:.4g}", shape.lo[a]));
 }
 
 void guess_up(const ShapeFigures& shape, FrameGuess& guess) {
   constexpr double sure_lead = 0.4, likely_lead = 0.15;
   std::array<FileAxis, 3> order = {FileAxis::y, FileAxis::z, FileAxis::x};  // where shapes do not tell, y before z
   std::stable_sort(order.begin(), order.end(), [&](FileAxis a, FileAxis b) { return score_of(shape, a) > score_of(shape, b); });
-  const double lead = score_of(shape, order[0]) - score_of(shape, order[1]);
+  const bool has_area = shape.facing != glm::dvec3(0.0);
+  const double lead = has_area ? score_of(shape, order[0]) - score_of(shape, order[1]) : 0.0;
   guess.up = order[0];
   guess.other_up = order[1];
   guess.up_certainty = lead >= sure_lead ? Certainty::sure : lead >= likely_lead ? Certainty::likely : Certainty::unsure;
-  guess.up_reason = why_up(shape, guess.up);
+  guess.up_reason = has_area ? why_up(shape, guess.up) : "no triangle has an area";
 }
 
 double middle_extent(const ShapeFigures& shape) {
-  const glm::dvec3 extent = shape.hi - shape.lo;
+  const glm::dvec3 extent = shape.plant_hi - shape.plant_lo;
   return std::max(std::min(extent.x, extent.y), std::min(std::max(extent.x, extent.y), extent.z));
 }
 
 bool shows_leaves(const ShapeFigures& shape) {
-  return shape.pieces >= least_pieces && shape.usual_piece > 0.0;
+  return shape.leaf_pieces >= least_leaf_pieces && shape.usual_leaf > 0.0;
 }
 
 // Returns how unusual a plant would be in this unit: the sum of its squared deviations in standard deviations.
@@ -69,7 +72,7 @@ double oddity_of(const ShapeFigures& shape, double metres_per_unit) {
   const double extent_m = middle_extent(shape) * metres_per_unit;
   double oddity = extent_m > 0.0 ? squared(std::log10(extent_m / usual_extent_m) / extent_deviation) : 0.0;
   if (shows_leaves(shape))
-    oddity += squared(std::log10(shape.usual_piece * squared(metres_per_unit) / usual_leaf_m2) / leaf_deviation);
+    oddity += squared(std::log10(shape.usual_leaf * squared(metres_per_unit) / usual_leaf_m2) / leaf_deviation);
   return oddity;
 }
 
@@ -79,19 +82,20 @@ std::string why_unit(const ShapeFigures& shape, double metres_per_unit, FileAxis
   std::string why = fmt::format("then the mesh is {:.3g} m tall and {:.3g} x {:.3g} m wide", extent_m[a], extent_m[(a + 1) % 3],
                                 extent_m[(a + 2) % 3]);
   if (shows_leaves(shape))
-    why += fmt::format(", and half of the area is in pieces of {:.3g} cm2 or more",
-                       1e4 * shape.usual_piece * metres_per_unit * metres_per_unit);
+    why += fmt::format(", and half of the leaf area is in pieces of {:.3g} cm2 or more",
+                       1e4 * shape.usual_leaf * metres_per_unit * metres_per_unit);
   return why;
 }
 
 void guess_unit(const ShapeFigures& shape, FrameGuess& guess) {
-  constexpr double sure_lead = 4.0, likely_lead = 1.0;  // a likelihood ratio is exp(lead / 2)
+  constexpr double sure_lead = 9.2, likely_lead = 1.0;  // a likelihood ratio is exp(lead / 2)
   std::array<double, 3> order = {1.0, 0.01, 0.001};
   std::stable_sort(order.begin(), order.end(), [&](double a, double b) { return oddity_of(shape, a) < oddity_of(shape, b); });
   const double lead = oddity_of(shape, order[1]) - oddity_of(shape, order[0]);
   guess.metres_per_unit = order[0];
   guess.other_metres_per_unit = order[1];
-  guess.unit_certainty = lead >= sure_lead ? Certainty::sure : lead >= likely_lead ? Certainty::likely : Certainty::unsure;
+  const bool sure = lead >= sure_lead && shows_leaves(shape);
+  guess.unit_certainty = sure ? Certainty::sure : lead >= likely_lead ? Certainty::likely : Certainty::unsure;
   guess.unit_reason = why_unit(shape, guess.metres_per_unit, guess.up);
 }
 

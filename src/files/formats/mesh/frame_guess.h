@@ -21,11 +21,13 @@ enum class Certainty { known, sure, likely, unsure };
 
 // Figures of a mesh as its file has it, on which the guess rests.
 struct ShapeFigures {
-  glm::dvec3 lo{0.0}, hi{0.0};  // box, file units
-  glm::dvec3 net_facing{0.0};   // |sum of area * normal| / area along each axis, 0..1
-  glm::dvec3 facing{0.0};       // sum of |area * normal| / area along each axis, 0..1
+  glm::dvec3 lo{0.0}, hi{0.0};              // box, file units
+  glm::dvec3 net_facing{0.0};               // |sum of area * normal| / area along each axis, 0..1
+  glm::dvec3 facing{0.0};                   // sum of |area * normal| / area along each axis, 0..1
+  glm::dvec3 plant_lo{0.0}, plant_hi{0.0};  // box of what no name calls soil, structure or lamp; of everything if that is all
   std::size_t pieces = 0;
-  double usual_piece = 0.0;  // file units squared: half of the area is in pieces of at least this area
+  std::size_t leaf_pieces = 0;  // by name or, where no name says leaf, by shape
+  double usual_leaf = 0.0;      // file units squared: half of the area of these is in pieces of at least this area
 };
 
 // What the format defines; see frame_of_format.
@@ -53,12 +55,14 @@ struct FrameGuess {
 //
 // Up: leaves show the sky most of their area, on the same side of nearly all of them, and plants stand on 0. Each axis scores its
 // net facing, half its facing, and up to half a point for a lower bound near 0; the highest score wins, and its lead decides
-// the certainty. Which of the two sides faces up does not matter, since some programs wind leaves downwards.
+// the certainty, which is `unsure` for a mesh without area. Which of the two sides faces up does not matter, since some programs
+// wind leaves downwards.
 //
 // Unit: metres, centimetres or millimetres, whichever makes plant and leaves most usual. The middle one of the three extents is
-// taken as log-normal about 0.8 m (a factor of 5 is one standard deviation), the usual piece, which is a leaf, about 80 cm2 (a
-// factor of 6.3). Both laws were fitted to 16 meshes of a dozen species, from seedlings of 10 cm to maize stands of 3 m. A mesh
-// of fewer than three pieces does not show its leaves, so only its extents count.
+// taken as log-normal about 0.8 m (a factor of 5 is one standard deviation), the usual leaf about 80 cm2 (a factor of 6.3). Both
+// laws were fitted to 16 meshes of a dozen species, from seedlings of 10 cm to maize stands of 3 m. `sure` is a unit that is a
+// hundred times as likely as the next one, so that a plant of usual size in centimetres, which might be a tiny one in
+// millimetres, is `likely`. In a mesh of fewer than three leaf pieces only the extents count, and nothing is sure.
 [[nodiscard]] FrameGuess guess_frame(const ShapeFigures& shape, const KnownFrame& known);
 
 }  // namespace sunfleck

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -20,6 +21,8 @@ namespace {
 
 using AreaByRole = std::array<double, role_names.size()>;
 using Corners = std::array<glm::dvec3, 3>;
+
+constexpr double flatness_of_sheets = 0.3;  // least MeshShare::flatness
 
 Corners corners_of(const Mesh& mesh, std::size_t t) {
   const glm::uvec3& c = mesh.triangles[t];
@@ -53,7 +56,9 @@ class Surveyor {
     EXPECT(mesh_.triangles.empty(), ==, false);
     found_.vertices = mesh_.vertices.size();
     found_.triangles = mesh_.triangles.size();
+    name_roles();
     measure_shape();
+    find_leaf_pieces();
     found_.frame = guess_frame(found_.shape, known_);
     count_organs();
     count_shares();
@@ -64,9 +69,21 @@ class Surveyor {
   }
 
  private:
+  void name_roles() {
+    for (const Organ& organ : mesh_.organs) organ_roles_.push_back(role_from_name(organ.name));
+    for (const std::string& name : mesh_.optics_names) optics_roles_.push_back(role_from_name(name));
+  }
+
+  // Returns the role that the name of a triangle's organ or else of its material suggests.
+  [[nodiscard]] std::optional<Role> named_role(std::size_t t) const {
+    const std::optional<Role>& by_organ = organ_roles_[mesh_.organ_of[t]];
+    return by_organ ? by_organ : optics_roles_[mesh_.optics_of[t]];
+  }
+
   void measure_shape() {
     ShapeFigures& shape = found_.shape;
     shape.lo = shape.hi = corners_of(mesh_, 0)[0];
+    measure_plant();
     glm::dvec3 net{0.0};
     piece_vectors_.assign(pieces_.count, glm::dvec3(0.0));
     piece_areas_.assign(pieces_.count, 0.0);
@@ -89,18 +106,49 @@ class Surveyor {
       shape.facing /= found_.area;
     }
     shape.pieces = pieces_.count;
-    shape.usual_piece = usual_piece();
   }
 
-  [[nodiscard]] double usual_piece() const {
-    std::vector<double> areas = piece_areas_;
+  void measure_plant() {
+    ShapeFigures& shape = found_.shape;
+    const auto is_plant = [&](std::size_t t) { return is_vegetation(named_role(t).value_or(Role::leaf)); };
+    std::vector<std::size_t> all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const auto end = std::stable_partition(all.begin(), all.end(), is_plant);
+    all.erase(end == all.begin() ? all.end() : end, all.end());
+    shape.plant_lo = shape.plant_hi = corners_of(mesh_, all.front())[0];
+    for (const std::size_t t : all) {
+      for (const glm::dvec3& corner : corners_of(mesh_, t)) {
+        shape.plant_lo = glm::min(shape.plant_lo, corner);
+        shape.plant_hi = glm::max(shape.plant_hi, corner);
+      }
+    }
+  }
+
+  // Leaves are the pieces that a name calls so; where none is, those without a name that are sheets, or else all without one.
+  void find_leaf_pieces() {
+    std::vector<std::optional<Role>> roles(pieces_.count);  // of the first triangle with one
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      std::optional<Role>& role = roles[pieces_.piece_of[t]];
+      if (!role) role = named_role(t);
+    }
+    std::vector<double> leaves, sheets, unnamed;
+    for (std::size_t p = 0; p < pieces_.count; ++p) {
+      const double area = piece_areas_[p];
+      if (roles[p] == Role::leaf) leaves.push_back(area);
+      if (roles[p]) continue;
+      unnamed.push_back(area);
+      if (glm::length(piece_vectors_[p]) > flatness_of_sheets * area) sheets.push_back(area);
+    }
+    std::vector<double>& areas = !leaves.empty() ? leaves : !sheets.empty() ? sheets : unnamed;
+    found_.shape.leaf_pieces = areas.size();
     std::sort(areas.begin(), areas.end());
+    const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
     double sum = 0.0;
     for (const double area : areas) {
       sum += area;
-      if (2.0 * sum >= found_.area) return area;
+      found_.shape.usual_leaf = area;
+      if (2.0 * sum >= all) break;
     }
-    return areas.back();
   }
 
   void count_organs() {
@@ -111,7 +159,6 @@ class Surveyor {
     }
     found_.organs = organs.size();
     found_.plants = plants.size() - plants.count(0);
-    for (const Organ& organ : mesh_.organs) organ_roles_.push_back(role_from_name(organ.name));
   }
 
   // Returns the shares by a property of the triangles, which `name_of` gives.
@@ -152,7 +199,6 @@ class Surveyor {
 
   // `named_areas` has the area by role of the organs of each share whose names suggest one.
   static void find_roles(std::vector<MeshShare>& shares, const std::vector<AreaByRole>& named_areas) {
-    constexpr double flatness_of_sheets = 0.3;
     for (std::size_t i = 0; i < shares.size(); ++i) {
       MeshShare& share = shares[i];
       const auto largest = std::max_element(named_areas[i].begin(), named_areas[i].end());
@@ -275,10 +321,11 @@ class Surveyor {
   const KnownFrame& known_;
   const std::vector<std::uint32_t> places_;
   const ConnectedPieces pieces_;
-  std::vector<double> areas_;                     // [triangle]
-  std::vector<glm::dvec3> piece_vectors_;         // [piece]
-  std::vector<double> piece_areas_;               // [piece]
-  std::vector<std::optional<Role>> organ_roles_;  // [organ], as far as their names suggest one
+  std::vector<double> areas_;              // [triangle]
+  std::vector<glm::dvec3> piece_vectors_;  // [piece]
+  std::vector<double> piece_areas_;        // [piece]
+  // [organ] and [optics], as far as their names suggest one
+  std::vector<std::optional<Role>> organ_roles_, optics_roles_;
   MeshSurvey found_;
 };
 

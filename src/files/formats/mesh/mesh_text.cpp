@@ -32,20 +32,38 @@ void check_arrays(const Mesh& mesh) {
                   "write it in parts");
 }
 
-// Returns the organ for the label. A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2. Of a
-// surface whose optics name no part of a plant, such as `green`, it states the organ.
-Organ organ_of_label(const Mesh& mesh, std::size_t triangle) {
-  const Organ& organ = mesh.organs[mesh.organ_of[triangle]];
-  const std::string& optics = mesh.optics_names[mesh.optics_of[triangle]];
-  return {organ.plant, role_from_name(optics) ? optics : organ.name, organ.rank};
-}
+// The labels of a mesh's triangles.
+class Labels {
+ public:
+  explicit Labels(const Mesh& mesh) : mesh_(mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Organ organ = organ_of(t);
+      if (role_from_name(organ.name) == Role::leaf) plants_with_leaves_.insert(organ.plant);
+    }
+  }
 
-// Returns the label of a triangle, which has this number in its organ.
-std::string label_of(const Mesh& mesh, std::size_t triangle, std::size_t number_in_organ) {
-  const std::uint64_t label = mesh.labels.empty() ? no_label : mesh.labels[triangle];
-  return label == no_label ? caribu_label(organ_of_label(mesh, triangle), number_in_organ)
-                           : caribu_label_as_read(mesh.organs[mesh.organ_of[triangle]], label);
-}
+  // Returns the label of a triangle, which has this number in its organ.
+  [[nodiscard]] std::string of(std::size_t triangle, std::size_t number_in_organ) const {
+    const std::uint64_t label = mesh_.labels.empty() ? no_label : mesh_.labels[triangle];
+    if (label != no_label) return caribu_label_as_read(mesh_.organs[mesh_.organ_of[triangle]], label);
+    Organ organ = organ_of(triangle);
+    if (!organ.role && !role_from_name(organ.name))
+      organ.role = plants_with_leaves_.contains(organ.plant) ? Role::stem : Role::leaf;
+    return caribu_label(organ, number_in_organ);
+  }
+
+ private:
+  // A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2. Of a surface whose optics name no
+  // part of a plant, such as `green`, it states the organ.
+  [[nodiscard]] Organ organ_of(std::size_t triangle) const {
+    const Organ& organ = mesh_.organs[mesh_.organ_of[triangle]];
+    const std::string& optics = mesh_.optics_names[mesh_.optics_of[triangle]];
+    return {organ.plant, role_from_name(optics) ? optics : organ.name, organ.rank};
+  }
+
+  const Mesh& mesh_;
+  std::set<std::uint32_t> plants_with_leaves_;
+};
 
 // Returns whether reading the label back yields optics of this name.
 bool survives_label(const std::string& optics) {
@@ -109,9 +127,10 @@ std::string ply_mesh_bytes(const Mesh& mesh, Axes axes) {
 std::string can_text(const Mesh& mesh) {
   check_arrays(mesh);
   std::string text = "# sunfleck: x east, y north, z up; m\n";
+  const Labels labels(mesh);
   std::vector<std::size_t> next_number(mesh.organs.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    text += "p 1 " + label_of(mesh, t, next_number[mesh.organ_of[t]]++) + " 3";
+    text += "p 1 " + labels.of(t, next_number[mesh.organ_of[t]]++) + " 3";
     for (int corner = 0; corner < 3; ++corner) {
       const glm::dvec3& v = mesh.vertices[mesh.triangles[t][corner]];
       fmt::format_to(std::back_inserter(text), " {} {} {}", 0.0 - v.z, 0.0 - v.x, v.y);  // no -0
@@ -123,9 +142,10 @@ std::string can_text(const Mesh& mesh) {
 
 std::size_t organs_merged_in_can(const Mesh& mesh) {
   constexpr std::size_t number_digits = 3;  // of the triangle in its organ
+  const Labels labels(mesh);
   std::map<std::string, std::set<std::uint32_t>> organs_of;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::string label = label_of(mesh, t, 0);
+    std::string label = labels.of(t, 0);
     label.resize(label.size() - number_digits);
     organs_of[label].insert(mesh.organ_of[t]);
   }

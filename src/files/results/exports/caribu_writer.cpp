@@ -2,6 +2,7 @@
 
 #include "files/formats/mesh/caribu_label.h"
 #include "files/results/exports/record_entries.h"
+#include "physics/transport/model/surfaces.h"
 
 #include <fmt/format.h>
 
@@ -21,11 +22,13 @@ std::size_t column_index(const std::vector<LightValues>& band, LightColumn colum
 std::string caribu_csv(const ExportData& data) {
   const ElementFields& fields = data.fields;
   const Canopy& canopy = data.model.canopy;
+  const std::vector<Role> roles = organ_roles(data.model);
   std::vector<std::string> labels;
   std::vector<std::size_t> next_number(canopy.organs.size());
   for (std::size_t e = 0; e < fields.size(); ++e) {
     const std::uint32_t number = canopy.organ_of[e];
-    const Organ& organ = canopy.organs[number];
+    Organ organ = canopy.organs[number];
+    organ.role = roles[number];
     const std::uint64_t label = canopy.labels.empty() ? no_label : canopy.labels[e];
     labels.push_back(label == no_label ? caribu_label(organ, next_number[number]++) : caribu_label_as_read(organ, label));
   }

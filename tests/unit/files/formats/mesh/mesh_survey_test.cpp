@@ -67,6 +67,67 @@ TEST(FrameGuess, SaysWhereItIsNotSure) {
   EXPECT_EQ(survey.closed_pieces, 1U);
 }
 
+// Adds a square of these lengths at this place, level, with the number of an organ.
+void add_level_square(Mesh& mesh, glm::dvec3 corner, double length, std::uint32_t organ) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const glm::dvec3& at : {glm::dvec3(0, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 1), glm::dvec3(1, 0, 0)})
+    mesh.vertices.push_back(corner + length * at);
+  add_square(mesh, first, first + 1, first + 2, first + 3, organ);
+}
+
+TEST(FrameGuess, JudgesTheUnitByLeavesAndNotByTrunksAndGround) {
+  Mesh tall;  // in metres: leaves of 25 cm2 on a trunk of 60 m2, 12 m high
+  tall.optics_names = {"surface"};
+  tall.organs = {{1, "leaf", 1}, {1, "trunk", 0}, {1, "ground", 0}};
+  for (int k = 0; k < 200; ++k) add_level_square(tall, {0.02 * k, 6.0 + 0.03 * k, 0.01 * k}, 0.05, 0);
+  tall.vertices.insert(tall.vertices.end(), {{0, 0, 0}, {5, 0, 0}, {5, 12, 0}, {0, 12, 0}});
+  add_square(tall, 800, 801, 802, 803, 1);
+  const FrameGuess guess = survey_mesh(tall, {}).frame;
+  EXPECT_EQ(guess.metres_per_unit, 1.0) << guess.unit_reason;
+  EXPECT_EQ(guess.unit_certainty, Certainty::sure) << guess.unit_reason;
+  Mesh plant;  // 0.6 m, in metres
+  plant.optics_names = tall.optics_names;
+  plant.organs = tall.organs;
+  for (int k = 0; k < 12; ++k) add_level_square(plant, {0.02 * k, 0.05 * k, 0.01 * k}, 0.05, 0);
+  const FrameGuess alone = survey_mesh(plant, {}).frame;
+  EXPECT_EQ(alone.metres_per_unit, 1.0);
+  add_level_square(plant, {-10.0, 0.0, -10.0}, 20.0, 2);
+  const FrameGuess on_ground = survey_mesh(plant, {}).frame;
+  EXPECT_EQ(on_ground.metres_per_unit, 1.0) << on_ground.unit_reason;
+  EXPECT_EQ(on_ground.unit_certainty, alone.unit_certainty);
+}
+
+TEST(FrameGuess, IsSureOnlyWhereAnotherUnitIsOutOfTheQuestion) {
+  const Mesh plant = plant_mesh(maize);
+  EXPECT_EQ(survey_mesh(reordered(plant, {0, 1, 2}, 1.0), {}).frame.unit_certainty, Certainty::sure);
+  const FrameGuess cm = survey_mesh(reordered(plant, {0, 1, 2}, 100.0), {}).frame;
+  EXPECT_EQ(cm.unit_certainty, Certainty::likely) << "a tiny plant in millimetres is possible: " << cm.unit_reason;
+  Mesh stem;
+  stem.optics_names = {"stem"};
+  stem.organs = {{1, "stem", 0}};
+  stem.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 50, 0}, {0, 50, 0}};
+  add_square(stem, 0, 1, 2, 3, 0);
+  EXPECT_NE(survey_mesh(stem, {}).frame.unit_certainty, Certainty::sure) << "no leaf shows the unit";
+}
+
+TEST(FrameGuess, GivesEvidenceForTheAxis) {
+  Mesh skins;  // leaves of two skins that face opposite ways
+  skins.optics_names = {"leaf"};
+  skins.organs = {{1, "leaf", 1}};
+  for (int k = 0; k < 4; ++k) {
+    add_level_square(skins, {0.2 * k, 0.1 * k, 0.0}, 0.1, 0);
+    const std::uint32_t first = 4 * static_cast<std::uint32_t>(k);
+    add_square(skins, first + 3, first + 2, first + 1, first, 0);
+  }
+  const FrameGuess guess = survey_mesh(skins, {}).frame;
+  EXPECT_EQ(guess.up, FileAxis::y);
+  EXPECT_EQ(guess.up_reason.substr(0, 68), "either way round, 100 % of the area faces along y and at most 0 % al")
+      << guess.up_reason;
+  for (glm::dvec3& vertex : skins.vertices) vertex.z = vertex.y = 0.0;
+  EXPECT_EQ(survey_mesh(skins, {}).frame.up_certainty, Certainty::unsure);
+  EXPECT_EQ(survey_mesh(skins, {}).frame.up_reason, "no triangle has an area");
+}
+
 TEST(FrameGuess, FormatsThatDefineTheirFrameAreBelieved) {
   const Mesh plant = reordered(plant_mesh(maize), {0, 2, 1}, 100.0);
   const FrameGuess gltf = survey_mesh(plant, frame_of_format("a.GLB")).frame;

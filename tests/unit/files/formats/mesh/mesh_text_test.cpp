@@ -120,6 +120,20 @@ TEST(MeshText, ACanTakesThePartFromTheOrganWhereTheMaterialNamesNone) {
     EXPECT_NE(text.find(label), std::string::npos) << text;
 }
 
+// In a plant without leaves, what no name describes is a leaf, as in a run.
+TEST(MeshText, ACanHasLeavesWhereNamesSayNothing) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  mesh.triangles.assign(4, {0, 1, 2});
+  mesh.organs = {{1, "feuille_0", 0}, {1, "feuille_3", 3}, {2, "feuille_0", 0}, {2, "leaf", 4}};
+  mesh.optics_names = {"vert"};
+  mesh.organ_of = {0, 1, 2, 3};
+  mesh.optics_of = {0, 0, 0, 0};
+  const std::string text = can_text(mesh);
+  for (const char* label : {"p 1 100001001000 3 ", "p 1 100001003000 3 ", "p 1 100002000000 3 ", "p 1 100002004000 3 "})
+    EXPECT_NE(text.find(label), std::string::npos) << text;
+}
+
 TEST(MeshText, RefusesWhatHasNoPlace) {
   const TempFolder folder;
   const auto message = [&](const Mesh& mesh, const char* name, ErrorKind kind = ErrorKind::input) {

@@ -138,6 +138,9 @@ TEST(Caribu, Labels) {
   EXPECT_EQ(caribu_label({1, "ear", 5}, 0), "100001000000");
   EXPECT_EQ(caribu_label({1, "leaf.113", 5}, 0), "100001005000") << "a label has twelve digits";
   EXPECT_EQ(caribu_label({0, "soil", 0}, 5), "000000000005");
+  EXPECT_EQ(caribu_label({1, "feuille_0", 0}, 0), "100001000000") << "only soil has the species 0";
+  EXPECT_EQ(caribu_label({1, "feuille_3", 3, Role::leaf}, 0), "100001003000") << "the number counts organs";
+  EXPECT_EQ(caribu_label({1, "ground", 0, Role::leaf}, 0), "100001001000") << "a given role comes before the name";
   EXPECT_NE(refusal({100'000, "leaf", 1}).find("plant 100000 has no label (CARIBU labels have numbers 0..99999); "),
             std::string::npos);
   EXPECT_NE(refusal({1, "leaf", 1000}), "");
