@@ -1,14 +1,19 @@
 #include "simulate/ranks.h"
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "base/version.h"
+#include "files/results/tables/work_settings.h"
 #include "physics/transport/indirect/replicate_maker.h"
 #include "simulate/cluster/rank_worker.h"
 #include "simulate/interrupt.h"
+#include "simulate/result_folder.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <mutex>
 #include <new>
@@ -19,9 +24,9 @@ namespace sunfleck {
 namespace {
 
 // Returns a text that must be the same on all ranks of a job.
-std::string what_is_simulated(const Simulation& simulation) {
-  return fmt::format("scene {} with {} counters in version {}, {}", simulation.scene().digest, simulation.layout().words(),
-                     version(), commit());
+std::string what_is_simulated(const Simulation& simulation, const std::string& task) {
+  return fmt::format("scene {} with {} counters in version {}, {}, for {}", simulation.scene().digest,
+                     simulation.layout().words(), version(), commit(), task);
 }
 
 // Makes replicates in the lights of one stage.
@@ -61,6 +66,16 @@ class ReplicateBench {
 
 }  // namespace
 
+std::string task_text(const std::string& command, const SceneRequest& scene, const ResultRequest& result,
+                      const SolveSettings& settings) {
+  nlohmann::ordered_json work = {{"exports", result.exports}, {"triangles", settings.element_errors}};
+  add_work_settings(work, settings.accuracy, settings.grid_m, settings.passes, settings.max_rays);
+  Digest digest;
+  digest.add(work.dump());
+  return fmt::format("{} into {} with seed {} and settings {}", command, printable(result_folder(result, scene.scene).string()),
+                     settings.seed, digest.text());
+}
+
 Ranks::Ranks() : job_(join_job()) {
   if (job_ && job_->seat().rank == 0) helpers_ = std::make_unique<RankHelpers>(job_->mailbox());
 }
@@ -79,10 +94,10 @@ void Ranks::take_seat(DeviceRequest& request) const {
   request.device_turn = job_->seat().local_rank;
 }
 
-void Ranks::gather(const Simulation& simulation, const SolveSettings& settings) {
+void Ranks::gather(const Simulation& simulation, const SolveSettings& settings, const std::string& task) {
   if (!helpers_) return;
   if (!job_->seat().hint.empty()) say(job_->seat().hint);
-  helpers_->wait_until_ready(what_is_simulated(simulation));
+  helpers_->wait_until_ready(what_is_simulated(simulation, task));
   if (settings.max_rays) {
     say("--max-rays: rank 0 alone makes the replicates, one after another");
     release();
@@ -121,7 +136,7 @@ void Ranks::make_replicates(const Task& task) {
   RankService service;
   service.slots = static_cast<std::size_t>(task.settings.replicates_at_once);
   service.host = job_->seat().host;
-  service.scene = what_is_simulated(task.simulation);
+  service.scene = what_is_simulated(task.simulation, task.text);
   service.set_stage = [&](std::uint64_t stage) {
     bench.emplace(task.simulation, task.lights ? task.lights(stage) : std::vector{task.simulation.model()});
   };

@@ -11,9 +11,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace sunfleck {
+
+// Returns a text that is the same on all ranks that were given the same: `command` with its times, the folder and the exports of its
+// result, and the settings of its work.
+[[nodiscard]] std::string task_text(const std::string& command, const SceneRequest& scene, const ResultRequest& result,
+                                    const SolveSettings& settings);
 
 class Ranks {
  public:
@@ -30,8 +36,9 @@ class Ranks {
   // Gives a request this rank's share of the cores, unless it specifies a number of threads, and its turn among equal devices.
   void take_seat(DeviceRequest& request) const;
 
-  // In rank 0: waits until the workers have read the same scene, and reports on them. Throws their first error.
-  void gather(const Simulation& simulation, const SolveSettings& settings);
+  // In rank 0: waits until the workers have read the same scene and have the same task (task_text), and reports on them. Throws their
+  // first error.
+  void gather(const Simulation& simulation, const SolveSettings& settings, const std::string& task);
   // Returns the helpers that make replicates for `solve`; null without workers.
   [[nodiscard]] ReplicateHelpers* helpers() { return helpers_.get(); }
   void set_stage(std::uint64_t stage);  // selects the lights of Task::lights
@@ -43,6 +50,7 @@ class Ranks {
   struct Task {
     Simulation& simulation;
     const SolveSettings& settings;
+    std::string text;  // task_text
     // Returns the lights of a stage; empty for the light of the simulation's scene.
     std::function<std::vector<RadiationModel>(std::uint64_t stage)> lights;
   };

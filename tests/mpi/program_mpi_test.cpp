@@ -4,6 +4,7 @@
 #include "regression/small_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace sunfleck {
@@ -249,6 +250,27 @@ TEST_F(Mpi, IsNotUsedWhereItIsSwitchedOff) {
                              Arguments{"/bin/sh", "-c", task.substr(task.find("exec")), SUNFLECK_ITSELF});
   EXPECT_EQ(joined.status, 2) << joined.err;
   EXPECT_NE(joined.err.find("SUNFLECK_MPI=off"), std::string::npos) << joined.err;
+}
+
+// Ranks with other options would make replicates of other light, or results that nobody writes.
+TEST_F(Mpi, RefusesRanksWithOtherTasks) {
+  const Arguments launcher = by(2, {});
+  const auto farm = [&](const std::string& first, const std::string& second) {
+    const std::string task = "exec \"$0\" $([ $OMPI_COMM_WORLD_RANK = 0 ] && echo " + first + " || echo " + second +
+                             ") --device cpu "
+                             "--images none --error 0.1 --quiet";
+    return run(Arguments(launcher.begin(), launcher.end() - 1) + Arguments{"/bin/sh", "-c", task, SUNFLECK_ITSELF});
+  };
+  for (const auto& [first, second, words] :
+       {std::array<const char*, 3>{"run scene.toml", "run scene.toml --seed 2", "with seed 2"},
+        {"run scene.toml", "run scene.toml -o two", "into two"},
+        {"day day.toml --from 10:00 --to 12:00", "day day.toml --from 10:00 --to 11:00", "10:00 to 11:00"},
+        {"run day.toml", "day day.toml --from 10:00 --to 11:00", "day of "}}) {
+    const Outcome outcome = farm(first, second);
+    EXPECT_EQ(outcome.status, 2) << second << outcome.err;
+    EXPECT_NE(outcome.err.find("rank 1 on"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -40,6 +40,33 @@ void warn_of_angles(const TomlTable& sun, std::vector<std::string>& warnings) {
   }
 }
 
+// Warns if the sun is highest far from noon by the clock of the scene's time. UTC is no clock of a place.
+void warn_of_clock(const TomlTable& sun, const SunMoment& moment, std::vector<std::string>& warnings) {
+  constexpr double day_minutes = 1440.0, minutes_per_deg = 4.0;
+  constexpr double most_minutes = 240.0;  // in western China the sun is highest three hours after noon
+  const double longitude_deg = glm::degrees(moment.place.longitude_rad);
+  const auto late_minutes = [&](double east_deg) {
+    return std::remainder(moment.offset_minutes - minutes_per_deg * east_deg, day_minutes);
+  };
+  if (moment.offset_minutes == 0 || std::abs(late_minutes(longitude_deg)) <= most_minutes) return;
+  const int noon = static_cast<int>(std::lround(0.5 * day_minutes + late_minutes(longitude_deg) + day_minutes)) % 1440;
+  const bool turned = std::abs(late_minutes(-longitude_deg)) <= most_minutes;
+  warnings.push_back(fmt::format(
+      "{}: at {:.6g} degrees east the sun is highest at about {:02}:{:02} by the clock of sun.time; {}", sun.place("longitude"),
+      longitude_deg, noon / 60, noon % 60,
+      turned ? fmt::format("if it is west, give {:.6g}", -longitude_deg) : "correct the longitude or the offset of the time"));
+}
+
+void warn_of_shares(const TomlTable& band, const std::vector<BandLight>& lights, std::vector<std::string>& warnings) {
+  double sum = 0.0;
+  for (const BandLight& light : lights) sum += light.share.value_or(0.0);
+  if (sum <= 1.0 + 1e-6) return;
+  warnings.push_back(
+      fmt::format("{}: the shares of all bands add up to {:.4g} of the broadband irradiance; give at most 1 in all "
+                  "unless bands overlap (a share that is left out is 0.5)",
+                  band.place("share"), sum));
+}
+
 // Returns whether the table is a [[band]], which takes a unit; `bands` takes none.
 bool takes_unit(const TomlTable& band) {
   return !band.has("step");
@@ -124,7 +151,10 @@ double most_solar_share(const WavelengthRange& range) {
 
 std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene) {
   std::vector<std::string> warnings;
-  if (const auto sun = root.table("sun")) warn_of_angles(*sun, warnings);
+  if (const auto sun = root.table("sun")) {
+    warn_of_angles(*sun, warnings);
+    if (scene.moment) warn_of_clock(*sun, *scene.moment, warnings);
+  }
   const auto day = scene.moment ? std::optional<int>(day_of_year(scene.moment->time)) : std::nullopt;
   const double limit_w_m2 = extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
   const auto check = [&](const TomlTable& table, const BandLight& light, const WavelengthRange& range) {
@@ -140,6 +170,7 @@ std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scen
   for (std::size_t b = 0; b < tables.size(); ++b) {
     if (!scene.light.bands[b].share) check(tables[b], scene.light.bands[b], {bands[b].from_nm, bands[b].to_nm});
   }
+  warn_of_shares(tables.front(), scene.light.bands, warnings);
   return warnings;
 }
 

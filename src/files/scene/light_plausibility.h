@@ -1,5 +1,6 @@
 #pragma once
-// Warns about impossible sunlight: too strong for a beam, in another unit, from an angle in another convention.
+// Warns about impossible sunlight: too strong for a beam, in another unit, from an angle in another convention, at another place than
+// the clock's, or in shares that are more than all of it.
 
 #include "files/scene/scene_reader.h"
 #include "files/scene/toml_view.h"
@@ -21,7 +22,8 @@ inline constexpr double solar_constant_w_m2 = 1361.0;
 // Returns warnings about [sun] and the fixed light of each [[band]] of a scene whose light has been read. Each names its place
 // and the number that would be right. A beam is compared with the light outside the atmosphere, at the sun's distance of the
 // scene's date, or at its mean distance if the scene has no date; where the band has wavelengths, with the share of it that
-// most_solar_share gives.
+// most_solar_share gives. The sun should be highest within four hours of noon by the clock of the scene's time, unless that is
+// UTC, and the shares of bands should add up to at most 1.
 [[nodiscard]] std::vector<std::string> light_warnings(const TomlTable& root, const Scene& scene);
 
 // Returns warnings about surfaces that emit light though their role or name says that they are leaves. `root` locates them.

@@ -193,8 +193,10 @@ Broadband weather_of_step(const Weather& weather, const UtcTime& middle, double 
   constexpr double rounding_s = 1e-3;  // of differences between times
   const Broadband at_middle = weather_at(weather, middle, sun);
   if (weather.source != Weather::Source::intervals) return at_middle;
-  if (length_s <= interval_at(weather, middle).length_s + rounding_s) return at_middle;
   const UtcTime begin = plus_seconds(time_in_file(weather, middle), -0.5 * length_s);
+  const WeatherInterval& around = interval_at(weather, middle);
+  const double into_s = seconds_between(around.start, begin);
+  if (into_s >= -rounding_s && into_s + length_s <= around.length_s + rounding_s) return at_middle;
   auto interval = first_after(weather, begin);
   if (interval != weather.intervals.begin()) --interval;
   const int day = day_of_year(middle);

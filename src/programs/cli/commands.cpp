@@ -24,7 +24,7 @@ int help_with_run(const RunOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
     Simulation simulation(load_scene(options), options);
     const SolveSettings settings = solve_settings(options, simulation.scene(), options.threads);
-    make_replicates({simulation, settings, {}});
+    make_replicates({simulation, settings, task_text("run", options, options, settings), {}});
   });
   return served ? exit_done : exit_failed;
 }
@@ -63,7 +63,7 @@ int run(const RunOptions& asked) {
   const double load_s = watch.lap();
 
   Simulation simulation(std::move(scene), options);
-  ranks.gather(simulation, settings);
+  ranks.gather(simulation, settings, task_text("run", options, options, settings));
   watch_for_interrupts();
   prepare_folder(folder, lock, ResultOf::run,
                  found == Checkpoint::Found::begun ? OldResults::keep_checkpoint : OldResults::remove_all);

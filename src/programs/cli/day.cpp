@@ -175,6 +175,13 @@ SolveSettings settings_of(const DayOptions& options, const Scene& scene, const D
   return day_solve_settings(work, scene, options.run.threads);
 }
 
+std::string task_of(const DayOptions& options, const DayPlan& plan, const SolveSettings& settings) {
+  const std::string command =
+      fmt::format("day of {} to {}, {} to {} in steps of {} min", plan.course.dates.front(), plan.course.dates.back(),
+                  clock_text(plan.from_min), clock_text(plan.to_min), options.step_min);
+  return task_text(command, options.run, options.run, settings);
+}
+
 // Does the part of a rank other than 0 in a day.
 int help_with_day(const DayOptions& options, Ranks& ranks) {
   const bool served = ranks.serve([&](const auto& make_replicates) {
@@ -182,8 +189,8 @@ int help_with_day(const DayOptions& options, Ranks& ranks) {
     const DayPlan plan = plan_day(options, scene);
     Simulation simulation(std::move(scene), options.run);
     const SolveSettings settings = settings_of(options, simulation.scene(), plan);
-    make_replicates(
-        {simulation, settings, [&](std::uint64_t block) { return lights_of(simulation.model(), plan, block_of(block)); }});
+    make_replicates({simulation, settings, task_of(options, plan, settings),
+                     [&](std::uint64_t block) { return lights_of(simulation.model(), plan, block_of(block)); }});
   });
   return served ? exit_done : exit_failed;
 }
@@ -240,7 +247,7 @@ int run_day(const DayOptions& asked) {
   const double load_s = watch.lap();
 
   Simulation simulation(std::move(scene), run);
-  ranks.gather(simulation, settings);
+  ranks.gather(simulation, settings, task_of(options, plan, settings));
   watch_for_interrupts();
   open_day_folder(folder, lock, store, found == StepStore::Found::begun);
   say(device_line(simulation.device()));

@@ -1,7 +1,12 @@
 #include "simulate/cluster/launch.h"
 
+#include "base/text.h"
+
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
+#include <string>
 #include <string_view>
 
 namespace sunfleck {
@@ -16,11 +21,16 @@ std::optional<int> number_of(const char* text, int least) {
   return number;
 }
 
+bool says_no(const std::string& setting) {
+  constexpr std::string_view words[] = {"off", "no", "false", "0"};
+  return std::find(std::begin(words), std::end(words), lower_case(setting)) != std::end(words);
+}
+
 }  // namespace
 
 std::optional<Launch> launch_by_mpi(const Environment& environment) {
   const char* setting = environment("SUNFLECK_MPI");
-  if (setting != nullptr && std::string_view(setting) == "off") return std::nullopt;
+  if (setting != nullptr && says_no(setting)) return std::nullopt;
   struct Names {
     const char* rank;
     const char* ranks;

@@ -17,7 +17,7 @@ struct Launch {
 using Environment = std::function<const char*(const char*)>;
 
 // Returns the process's place among those that an MPI launcher started. Returns nothing for a process without a launcher,
-// and with SUNFLECK_MPI=off. The known variables are those of Open MPI's mpirun (OMPI_COMM_WORLD_RANK,
+// and with SUNFLECK_MPI=off, no, false or 0. The known variables are those of Open MPI's mpirun (OMPI_COMM_WORLD_RANK,
 // OMPI_COMM_WORLD_SIZE), of MPICH, Intel MPI and Slurm's pmi2 (PMI_RANK, PMI_SIZE), and of PMIx under Slurm and PRRTE
 // (PMIX_RANK; with Slurm also SLURM_STEP_NUM_TASKS). Slurm's variables alone say nothing about MPI.
 [[nodiscard]] std::optional<Launch> launch_by_mpi(const Environment& environment);

@@ -65,8 +65,9 @@ void RankHelpers::wait_until_ready(const std::string& scene) {
   }
   for (const Rank& rank : ranks_) {
     if (!rank.ready || rank.scene == scene) continue;
-    throw_input(rank.name, fmt::format("it was given {}, rank 0 has {}", rank.scene, scene),
-                "start the same program with the same scene on all ranks, or set SUNFLECK_MPI=off for independent runs");
+    throw_input(
+        rank.name, fmt::format("it was given {}, rank 0 has {}", rank.scene, scene),
+        "start the same command with the same scene and options on all ranks, or set SUNFLECK_MPI=off for independent runs");
   }
 }
 

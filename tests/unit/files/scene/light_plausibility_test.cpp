@@ -104,6 +104,40 @@ TEST_F(LightPlausibility, AnglesAreDegreesFromNorth) {
   expect_silent(lit_stand + sun("30", "0") + band("direct = 1"));
 }
 
+TEST_F(LightPlausibility, TheSunIsHighestAboutNoonByTheClock) {
+  const auto at = [](const char* offset, const char* longitude) {
+    return lit_stand + "[sun]\ntime = 2023-07-10T12:00:00" + offset + "\nlatitude = 40\nlongitude = " + longitude + "\n" +
+           band("direct = 1");
+  };
+  const auto expect_said = [&](const std::string& text, const char* words) {
+    const std::vector<std::string> warnings = read(text).warnings;  // the sun is low or below the horizon there
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+      return warning.find("sun.longitude: at ") != warning.npos && warning.find(words) != warning.npos;
+    })) << fmt::format("{}", fmt::join(warnings, "; "));
+  };
+  expect_said(at("-05:00", "88.2"), "the sun is highest at about 01:07");
+  expect_said(at("-05:00", "88.2"), "if it is west, give -88.2");
+  expect_said(at("+08:00", "10"), "correct the longitude or the offset of the time");
+  expect_silent(at("-05:00", "-88.2"));
+  expect_silent(at("-05:00", "271.8"));
+  expect_silent(at("+08:00", "76"));      // Kashgar
+  expect_silent(at("+13:00", "-171.8"));  // Samoa
+  expect_silent(at("Z", "-105"));
+}
+
+TEST_F(LightPlausibility, SharesAreOfOneWhole) {
+  const std::string clear = lit_stand +
+                            "[sun]\ntime = 2002-08-08T10:10:00+08:00\nlatitude = 40\nlongitude = 116.28\n[sky]\nmodel = "
+                            "\"uniform\"\n[weather]\nclear_sky = \"ineichen\"\n";
+  const auto bands = [](const std::string& shares) {
+    std::string text;
+    for (const char* name : {"A", "B", "C"}) text += std::string("[[band]]\nname = \"") + name + "\"\n" + shares;
+    return text;
+  };
+  expect_warned(clear + bands(""), "band.share", "add up to 1.5 of the broadband irradiance");
+  expect_silent(clear + bands("share = 0.3333333\n"));
+}
+
 TEST_F(LightPlausibility, LeavesDoNotShine) {
   const std::string lit = "[optics.leaf]\nreflectance = 0.1\nemission = 5\n";
   const std::string shining = replaced(lit_stand, "[optics.leaf]\nreflectance = 0.1\n", lit) + sun("60") + band("direct = 1");

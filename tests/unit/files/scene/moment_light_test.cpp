@@ -21,7 +21,7 @@ TEST_F(MomentLightTest, IsTheScenesOwnAtItsMoment) {
         plot_table + moment_table + par_table + "direct = 350\n",
         plot_table + moment_table + par_table + "direct_normal = 350\ndiffuse = 3\n[sky]\nmodel = \"uniform\"\n"}) {
     const Scene scene = read(text);
-    const MomentLight light = light_of_step(scene, scene.moment->time, 600.0);
+    const MomentLight light = light_of_step(scene, scene.moment->time, 0.0);  // an interval begins there
     EXPECT_EQ(light.sun.elevation_rad, scene.model.sun->elevation_rad);
     ASSERT_EQ(light.bands.size(), scene.model.bands.size());
     for (std::size_t b = 0; b < light.bands.size(); ++b) {

@@ -223,7 +223,21 @@ TEST(Weather, AStepLongerThanIntervalsHasTheirMean) {
             std::string::npos);
 }
 
-TEST(Weather, AnotherStepHasThatOfItsMiddle) {
+// Where clocks differ from UTC by half an hour, as in India, hours of the clock lie across those of a file in UTC.
+TEST(Weather, AStepAcrossIntervalsHasTheMeanOfBoth) {
+  Weather weather = hourly(5);
+  for (WeatherInterval& interval : weather.intervals) interval.dni_w_m2 = interval.dhi_w_m2 = interval.ghi_w_m2;
+  const auto diffuse = [&](int minute, double length_s) {
+    return weather_of_step(weather, {2002, 8, 8, 1, minute}, length_s, paper_sun).diffuse_w_m2;
+  };
+  EXPECT_NEAR(diffuse(0, 3600.0), 250.0, 1e-10);
+  EXPECT_NEAR(diffuse(15, 3600.0), 275.0, 1e-10);
+  EXPECT_NEAR(diffuse(0, 600.0), 250.0, 1e-10);
+  EXPECT_EQ(diffuse(30, 3600.0), 300.0);
+  EXPECT_EQ(diffuse(5, 600.0), 300.0);
+}
+
+TEST(Weather, AStepWithinAnIntervalHasItsLight) {
   const Weather weather = hourly(5);
   const UtcTime middle{2002, 8, 8, 2, 35};
   const Broadband expected = weather_at(weather, middle, paper_sun);

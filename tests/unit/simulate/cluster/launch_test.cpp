@@ -48,6 +48,8 @@ TEST(LaunchTest, TakesNothingElseForMpi) {
   }
   EXPECT_FALSE(launch({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "0"}}));
   EXPECT_FALSE(launch({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}, {"SUNFLECK_MPI", "off"}}));
+  for (const char* no : {"OFF", "no", "False", "0"})
+    EXPECT_FALSE(launch({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}, {"SUNFLECK_MPI", no}})) << no;
   EXPECT_TRUE(launch({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}, {"SUNFLECK_MPI", "on"}}));
 }
 
