@@ -323,8 +323,27 @@ def test_doubts_are_warnings():
 
 
 def test_optics_that_nothing_has_are_warned_of():
+    scene = with_arrays()
+    scene["optics"] = {**scene["optics"], "laef": {"reflectance": 0.9}}
     with pytest.warns(UserWarning, match="optics.laef is not used by any geometry"):
-        sunfleck.Simulation(with_arrays(), device="cpu").run(grid=0.02, passes=8, optics={"laef": {"reflectance": 0.9}})
+        sunfleck.Simulation(scene, device="cpu")
+
+
+@pytest.mark.parametrize("name, cure", [("laef", "did you mean leaf?"), ("LEAF", "did you mean leaf?"), ("Xyz", "use one of leaf, stem")])
+def test_optics_that_can_change_nothing_are_refused(name, cure):
+    simulation = sunfleck.Simulation(with_arrays(), device="cpu")
+    for change in (simulation.relight, lambda optics: sunfleck.sweep(with_arrays(), optics=optics, device="cpu")):
+        with pytest.raises(sunfleck.InputError) as refused:
+            change(optics={name: {"reflectance": [0.8, 0.9]}})
+        assert f"optics.{name} (" in str(refused.value) and cure in str(refused.value)
+
+
+def test_plants_that_others_are_numbered_as_are_refused():
+    first = {"vertices": LEAVES, "optics": "leaf", "plant": 1, "at": [[0.0, 0.0, 0.0], [0.5, 0.0, 0.5]]}
+    second = {"vertices": LEAVES, "optics": "leaf", "plant": 2}
+    with pytest.raises(sunfleck.InputError, match="plant 2 is there already"):
+        sunfleck.Simulation({**TABLES, "geometry": [first, second]}, device="cpu")
+    sunfleck.Simulation({**TABLES, "geometry": [second, first]}, device="cpu")
 
 
 def test_a_scene_without_sensors_has_no_table_of_them():

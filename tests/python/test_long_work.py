@@ -162,3 +162,54 @@ def test_interrupts_while_a_result_is_saved(tmp_path):
     interrupt(f"{result}; {saving}", is_ready=(folder / "summary.json").exists)
     summary = json.loads((folder / "summary.json").read_text())
     assert not summary["complete"] and summary["stopped"] == "interrupted"
+
+
+ENDS_WITH_A_THREAD = """
+import sys, threading, time
+import sunfleck
+from conftest import with_arrays
+
+def loop():
+    while True:
+        sunfleck.run(with_arrays(), device="cpu", error=1e-7)
+
+threading.Thread(target=loop, daemon=True).start()
+time.sleep(0.5)
+print("done")
+sys.exit(0)
+"""
+
+
+def test_a_daemon_thread_ends_with_the_interpreter():
+    here = os.path.dirname(__file__)
+    ended = subprocess.run([sys.executable, "-c", ENDS_WITH_A_THREAD], cwd=here, capture_output=True, text=True, timeout=PATIENCE_S)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "done\n", "")
+
+
+def test_threads_write_netcdf_one_after_the_other(tmp_path):
+    results = [sunfleck.run(with_arrays(), device="cpu", error=0.1, seed=seed) for seed in (1, 2)]
+    failures = []
+
+    def save(number):
+        try:
+            for _ in range(8):
+                results[number].save(tmp_path / str(number), export=["nc"])
+        except Exception as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=save, args=(number,)) for number in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures
+    for number in range(2):
+        assert (tmp_path / str(number) / "results.nc").stat().st_size > 1000
+
+
+def test_a_bad_progress_changes_no_light():
+    simulation = sunfleck.Simulation(with_arrays(), device="cpu")
+    before = simulation.sun
+    with pytest.raises(sunfleck.InputError, match="progress: int"):
+        simulation.run(sun={"elevation": 20.0, "azimuth": 90.0}, progress=1)
+    assert simulation.sun == before

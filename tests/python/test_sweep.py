@@ -132,6 +132,8 @@ def test_of_a_file(tmp_path):
         ({"optics": {"leaf": {"reflectance": [0.1, 0.2], "transmittance": [0.1]}}}, "optics.leaf.transmittance: 1 values"),
         ({"optics": {"leaf": {"reflectance": 0.1}}}, "nothing varies"),
         ({}, "nothing varies"),
+        ({"optics": {"leaf": {"reflektance": [0.1, 0.2]}}}, "optics.leaf.reflektance (no such values can vary)"),
+        ({"optics": {"leaf": {"reflectance": []}}}, "optics.leaf.reflectance (the list is empty)"),
         ({"optics": {"leaf": [0.1, 0.2]}}, "optics.leaf: list"),
         ({"optics": [0.1, 0.2]}, "optics: list"),
         ({"optics": {"leaf": {"reflectance": [0.1, 0.2]}}, "band": []}, "band"),

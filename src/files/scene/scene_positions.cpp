@@ -37,6 +37,12 @@ std::vector<Placement> placements_of_file(const TomlTable& geometry, const std::
   return placements;
 }
 
+[[noreturn]] void refuse_counted(const TomlTable& geometry, const char* key, std::uint32_t plant, const UsedPlants& plants) {
+  geometry.refuse(key, fmt::format("plant {} is there already, from an earlier [[geometry]]", plant),
+                  fmt::format("use numbers above {}, or give that one numbers, too, if both are parts of one plant",
+                              *plants.counted.rbegin()));
+}
+
 }  // namespace
 
 std::vector<Placement> read_placements(const TomlTable& geometry, const std::filesystem::path& scene_file, const Plot& plot,
@@ -71,16 +77,13 @@ void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std:
                       fmt::format("remove {}; the plants are then numbered in their order",
                                   geometry.has("positions") ? "the column plant" : "it"));
     }
-    if (given && plants.counted.contains(*given)) {
-      geometry.refuse(key, fmt::format("plant {} is there already, from an earlier [[geometry]]", *given),
-                      fmt::format("use numbers above {}, or give that one numbers, too, if both are parts of one plant",
-                                  *plants.counted.rbegin()));
-    }
+    if (given && plants.counted.contains(*given)) refuse_counted(geometry, key, *given, plants);
     plants.numbers.begin_copy(mesh, copy, placements[copy]);
-    const bool counts = !given && !(mesh.keeps_plants && copy == 0);
+    const bool keeps = mesh.keeps_plants && copy == 0;
     for (const std::uint32_t plant : own) {
       const std::uint32_t number = plants.numbers.of(plant);
-      if (counts) plants.counted.insert(number);
+      if (keeps && plants.counted.contains(number)) refuse_counted(geometry, "mesh", number, plants);
+      if (!given && !keeps) plants.counted.insert(number);
     }
   }
 }

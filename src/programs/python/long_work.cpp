@@ -1,5 +1,7 @@
 #include "programs/python/long_work.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -16,6 +18,28 @@ namespace py = pybind11;
 
 constexpr std::chrono::milliseconds listening_interval{20};
 constexpr std::chrono::milliseconds telling_interval{100};
+
+// What the threads of this process are doing. A child of fork() has only the thread that called it.
+std::atomic<bool> is_ending = false;
+std::atomic<int> in_progress = 0;
+
+class InProgress {
+ public:
+  InProgress() {
+    static const int registered = ::pthread_atfork(nullptr, nullptr, [] { in_progress = 0; });
+    static_cast<void>(registered);
+    ++in_progress;
+  }
+  ~InProgress() { --in_progress; }
+  InProgress(const InProgress&) = delete;
+  InProgress& operator=(const InProgress&) = delete;
+};
+
+void exit_if_ending() {
+  if (!is_ending) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
 
 // State shared by the two threads.
 struct Desk {
@@ -55,6 +79,7 @@ void attend(Desk& desk, const py::object& progress) {
       news = desk.progress;
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    exit_if_ending();
     const auto now = std::chrono::steady_clock::now();
     if (!progress.is_none() && (done || now - last_told >= telling_interval)) {
       progress(as_dict(news));
@@ -67,6 +92,8 @@ void attend(Desk& desk, const py::object& progress) {
 }  // namespace
 
 void do_long_work(const std::function<void(const Monitor&)>& work, const py::object& progress) {
+  exit_if_ending();
+  const InProgress counted;
   Desk desk;
   Monitor monitor;
   monitor.interrupted = [&desk] { return desk.stop.load(); };
@@ -100,6 +127,12 @@ void do_long_work(const std::function<void(const Monitor&)>& work, const py::obj
   }
   if (failure) std::rethrow_exception(failure);
   if (from_python) std::rethrow_exception(from_python);
+}
+
+void end_long_work() {
+  is_ending = true;
+  const py::gil_scoped_release release;
+  while (in_progress > 0) std::this_thread::sleep_for(listening_interval);
 }
 
 }  // namespace sunfleck

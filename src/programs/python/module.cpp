@@ -5,6 +5,7 @@
 #include "base/version.h"
 #include "programs/python/day.h"
 #include "programs/python/light.h"
+#include "programs/python/long_work.h"
 #include "programs/python/outcome.h"
 #include "programs/python/simulation.h"
 
@@ -45,4 +46,5 @@ PYBIND11_MODULE(_core, module) {
   sunfleck::bind_outcome(module);
   sunfleck::bind_simulation(module);
   sunfleck::bind_day(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&sunfleck::end_long_work));
 }

@@ -1,6 +1,7 @@
 #include "programs/python/outcome.h"
 
 #include "base/error.h"
+#include "files/results/exports/netcdf_file.h"
 #include "files/results/tables/plane_writer.h"
 #include "files/results/tables/result_tables.h"
 #include "files/results/tables/table_text.h"
@@ -192,6 +193,7 @@ void bind_outcome(py::module_& module) {
         for (const std::string& image : images) check_choice("images", image_words(), image);
         request.images = std::move(images);
         do_long_work([&](const Monitor& monitor) { outcome.write(request, monitor.interrupted); }, py::none());
+        if (holds(request.exports, "nc")) silence_hdf5();  // it was first called in another thread
       });
 }
 

@@ -53,6 +53,8 @@ class PythonSimulation {
   // Returns the text of the scene as it was read; empty after `relight`.
   [[nodiscard]] py::bytes scene_text() const { return simulation_->scene().text; }
   [[nodiscard]] std::vector<std::string> warnings() const { return simulation_->scene().warnings; }
+  // Returns the names of the optics that the canopy uses.
+  [[nodiscard]] std::vector<std::string> optics_names() const { return simulation_->scene().model.canopy.optics_names; }
   [[nodiscard]] std::size_t triangles() const { return simulation_->scene().model.canopy.size(); }
   [[nodiscard]] std::size_t tree_bytes() const { return simulation_->tree_bytes(); }
   [[nodiscard]] py::dict device() const {
@@ -125,6 +127,7 @@ void bind_simulation(py::module_& module) {
       .def("run", &PythonSimulation::run)
       .def_property_readonly("scene_text", &PythonSimulation::scene_text)
       .def_property_readonly("warnings", &PythonSimulation::warnings)
+      .def_property_readonly("optics_names", &PythonSimulation::optics_names)
       .def_property_readonly("triangles", &PythonSimulation::triangles)
       .def_property_readonly("tree_bytes", &PythonSimulation::tree_bytes)
       .def_property_readonly("device", &PythonSimulation::device)

@@ -31,12 +31,13 @@ constexpr int type_number<double> = NC_DOUBLE;
 
 }  // namespace
 
-NetcdfFile::NetcdfFile(std::string name) : name_(std::move(name)) {
+NetcdfFile::NetcdfFile(std::string name) : lock_(netcdf_mutex()), name_(std::move(name)) {
   constexpr std::size_t first_bytes = std::size_t{1} << 20;
   check(FROM_NETCDF(nc_create_mem)(name_.c_str(), NC_NETCDF4, first_bytes, &file_), "it cannot be created");
 }
 
-NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file) : name_(std::move(name)), on_disk_(true) {
+NetcdfFile::NetcdfFile(std::string name, const std::filesystem::path& file)
+    : lock_(netcdf_mutex()), name_(std::move(name)), on_disk_(true) {
   errno = 0;
   check(FROM_NETCDF(nc_create)(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "it cannot be created");
 }
@@ -199,5 +200,10 @@ template int NetcdfFile::variable<std::int64_t>(const std::string&, const std::v
                                                 std::string_view);
 template int NetcdfFile::variable<float>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
 template int NetcdfFile::variable<double>(const std::string&, const std::vector<int>&, std::string_view, std::string_view);
+
+void silence_hdf5() {
+  const std::lock_guard lock(netcdf_mutex());
+  FROM_NETCDF(H5Eset_auto2)(H5E_DEFAULT, nullptr, nullptr);
+}
 
 }  // namespace sunfleck

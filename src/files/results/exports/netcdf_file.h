@@ -1,10 +1,11 @@
 #pragma once
-// A netCDF-4 file in memory or on disk, written by the C library.
+// A netCDF-4 file in memory or on disk, written by the C library. While a thread has one, other threads wait for theirs.
 
 #include "files/results/tables/table.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,10 +72,15 @@ class NetcdfFile {
   void put_all(int variable, const void* values);
   void check(int status, std::string_view what);
 
+  std::unique_lock<std::recursive_mutex> lock_;  // see netcdf_mutex
   std::string name_;
   bool on_disk_ = false;
   bool broken_ = false;  // a call failed, so the library must not be called again with this file
   int file_ = -1;
 };
+
+// Keeps HDF5, below netCDF, from printing what it reports to the calling thread. netCDF itself does so in the thread that calls it
+// first.
+void silence_hdf5();
 
 }  // namespace sunfleck

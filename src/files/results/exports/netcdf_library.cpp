@@ -35,6 +35,11 @@ void* netcdf_function(const char* name) {
   return found;
 }
 
+std::recursive_mutex& netcdf_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 void leave_before_libraries() {
   ::on_exit(
       [](int status, void*) {

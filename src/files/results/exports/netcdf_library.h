@@ -6,6 +6,7 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <mutex>
 #include <string>
 
 namespace sunfleck {
@@ -14,6 +15,9 @@ namespace sunfleck {
 // loaded.
 #define FROM_NETCDF(function) reinterpret_cast<decltype(&function)>(netcdf_function(#function))
 [[nodiscard]] void* netcdf_function(const char* name);
+
+// Held by each file that is open, since neither library may be called by two threads at once.
+[[nodiscard]] std::recursive_mutex& netcdf_mutex();
 
 // After a failed write, netCDF-C (4.9.0) crashes when it closes or aborts the file, and again when the process exits and the
 // library closes it by itself. This makes the process exit with its intended status before that; the file is left open.

@@ -20,9 +20,16 @@ class _Bar(Protocol):
     def close(self) -> None: ...
 
 
+def check_progress(progress: Progress) -> None:
+    """Raises InputError for a value that `reporting` does not take."""
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        refuse(f"progress: {type(progress).__name__}", "must be True, False, None or a function", "give progress=True for a bar")
+
+
 @contextlib.contextmanager
 def reporting(progress: Progress) -> Iterator[Optional[Report]]:
     """Yields what the compiled part is to call: the function itself, that of a bar for True, None for None and False."""
+    check_progress(progress)
     if progress is None or progress is False:
         yield None
     elif progress is True:
@@ -31,10 +38,8 @@ def reporting(progress: Progress) -> Iterator[Optional[Report]]:
             yield bar.show
         finally:
             bar.close()
-    elif callable(progress):
-        yield progress
     else:
-        refuse(f"progress: {type(progress).__name__}", "must be True, False, None or a function", "give progress=True for a bar")
+        yield progress
 
 
 def words(state: State) -> str:

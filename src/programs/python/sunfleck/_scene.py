@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import difflib
 import os
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
 
@@ -101,6 +102,17 @@ class SceneSource:
         self.meshes[name] = _mesh(part, place)
         keys = _PART_KEYS + (("optics",) if isinstance(part.get("optics"), Mapping) else ())
         return {"mesh": name, **_plain({key: part[key] for key in keys if key in part}, place)}
+
+
+def refuse_unknown_optics(names: Iterable[str], known: Iterable[str]) -> None:
+    """Raises InputError for a name that no surface of a scene can have, which would change nothing."""
+    words = {word.lower(): word for word in known}
+    for name in names:
+        if text(str(name), "a key of optics") in words.values():
+            continue
+        near = difflib.get_close_matches(str(name).lower(), words, 1)
+        cure = f"did you mean {words[near[0]]}?" if near else f"use one of {', '.join(sorted(words.values()))}"
+        refuse(f"optics.{name}", "the scene has no optics of that name, so that nothing would change", cure)
 
 
 def _parsed(content: bytes, file: Path) -> dict[str, Any]:

@@ -12,9 +12,9 @@ from typing import Any, Optional, Union
 from . import _core
 from ._errors import InputError, in_python, refuse
 from ._options import flag, text, whole, work_options
-from ._progress import Progress, reporting
+from ._progress import Progress, check_progress, reporting
 from ._result import Result
-from ._scene import Scene, SceneSource
+from ._scene import Scene, SceneSource, refuse_unknown_optics
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -108,7 +108,7 @@ class Simulation:
         sun, sky and weather replace the whole table (None removes it), and band replaces all bands. soil replaces the keys that it
         contains: {"reflectance": 0.2} keeps the patch. optics replaces the tables of the names that it contains, each as a whole:
         {"leaf": {"reflectance": 0.2}} makes leaves opaque, so give transmittance, too. (In `sweep` what is left out stays.)
-        Raises InputError and changes nothing if the new scene is invalid.
+        Raises InputError and changes nothing if the new scene is invalid, or if no surface can have optics of such a name.
         """
         given: dict[str, Any] = {"sun": sun, "sky": sky, "band": band, "weather": weather, "soil": soil, "optics": optics}
         changes = {key: value for key, value in given.items() if value is not UNCHANGED}
@@ -118,6 +118,8 @@ class Simulation:
         for key, value in changes.items():
             overlaid = key in ("soil", "optics") and value is not None
             light[key] = {**(light.get(key) or {}), **_checked_table(value, key)} if overlaid else value
+        if "optics" in changes:
+            refuse_unknown_optics(changes["optics"], [*self._source.tables.get("optics", {}), *self._core.optics_names])
         changed = self._source.text_with(light)
         with self._tidied(always=True):
             self._core.relight(os.fspath(self._source.present_file), changed)
@@ -166,6 +168,7 @@ class Simulation:
                 "triangle_errors": triangle_errors,
             }
         )  # fmt: skip
+        check_progress(progress)
         self.relight(sun=sun, sky=sky, band=band, weather=weather, soil=soil, optics=optics)
         with reporting(progress) as report:
             result = Result(self._core.run(options, report))

@@ -11,7 +11,7 @@ import numpy as np
 
 from ._errors import InputError, refuse
 from ._result import Result
-from ._scene import Scene, SceneSource
+from ._scene import Scene, SceneSource, refuse_unknown_optics
 from ._simulation import Simulation
 
 if TYPE_CHECKING:
@@ -145,6 +145,7 @@ def sweep(
     tables = _tables(scene, folder, device, threads, allow_outside)
     names = _band_names(tables)
     changed_optics = given.get("optics", {})
+    refuse_unknown_optics(changed_optics, [*tables.get("optics", {}), "structure"])  # the last need not be defined
 
     def expanded(table: Mapping[str, Any], changes: Mapping[str, Any], place: str) -> dict[str, Any]:
         return _expanded(_overlaid(table, changes, names, place), names, variants)
@@ -213,6 +214,8 @@ def _lists(table: Any, place: str) -> Iterator[tuple[str, int]]:
             for band, item in value.items() if isinstance(value, Mapping) else ((None, value),):
                 if _is_list(item):
                     yield (name if band is None else f"{name}.{band}"), len(item)
+        elif _is_list(value) and key != "rgb":
+            refuse(name, "no such values can vary", f"use {', '.join(_BY_BAND)}")
 
 
 def _count(given: Mapping[str, Any]) -> int:
@@ -223,7 +226,9 @@ def _count(given: Mapping[str, Any]) -> int:
     if not lists:
         refuse("sweep", "nothing varies", 'give a list of values, such as optics={"leaf": {"reflectance": [0.1, 0.2]}}')
     for name, length in lists:
-        if length != lists[0][1] or length == 0:
+        if length == 0:
+            refuse(name, "the list is empty", "give one value for each variant")
+        if length != lists[0][1]:
             refuse(f"{name}: {length} values", f"{lists[0][0]} has {lists[0][1]}", "give one value for each variant everywhere")
     return lists[0][1]
 
