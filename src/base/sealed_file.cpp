@@ -50,6 +50,12 @@ std::string value_text(const ordered_json& settings, const std::string& key) {
   return settings.contains(key) ? printable(settings[key].dump()) : "not given";
 }
 
+// Returns what users call a setting.
+std::string setting_name(const std::string& key) {
+  if (key == "of_triangles" || key == "triangles") return "the light of single triangles (for --export and --images)";
+  return printable(key);
+}
+
 }  // namespace
 
 void seal(std::ostream& out, std::string_view mark, const json& content) {
@@ -101,7 +107,7 @@ void expect_same_settings(const ordered_json& now, const ordered_json& noted, co
                     "restore the scene, or omit --resume to start again");
       }
       throw_input(fmt::format("--resume {}", printable(result_folder.string())),
-                  fmt::format("{} has other settings: {} was {}, now {}", what, printable(key), value_text(noted, key),
+                  fmt::format("{} has other settings: {} was {}, now {}", what, setting_name(key), value_text(noted, key),
                               value_text(now, key)),
                   "use the same settings, or omit --resume to start again");
     }

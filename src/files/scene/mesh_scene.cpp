@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/rounding.h"
+#include "base/text.h"
 #include "files/formats/mesh/mesh_survey.h"
 #include "files/scene/scene_patterns.h"
 #include "files/scene/toml_text.h"
@@ -16,14 +17,13 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace sunfleck {
 
 namespace {
-
-constexpr std::string_view default_optics = "leaf";  // for triangles without a material
 
 // Returns the number rounded up to two digits.
 double rounded_up(double x) {
@@ -115,23 +115,66 @@ class MeshSceneText {
         "\n[accuracy]   # for a first look; without this table 0.001 and 0.003\ndirect   = 0.01\nindirect = 0.01\n";
   }
 
-  // Adds optics for each material, whichever mesh has it first.
+  // Adds optics for each material, whichever mesh has it first; for each role of the organs where these alone tell roles.
   void add_optics() {
-    std::map<std::string, bool> written;
+    std::set<std::string> written;
     for (const SurveyedMesh& mesh : meshes_) {
-      for (const MeshShare& share : mesh.survey.materials) {
-        const bool unnamed = share.name == no_material;
-        const std::string name = unnamed ? std::string(default_optics) : share.name;
-        if (!written.emplace(name, true).second) continue;
+      for (const MeshShare& share : has_roles_by_organ(mesh) ? mesh.survey.families : mesh.survey.materials) {
+        const std::string name = has_roles_by_organ(mesh) ? std::string(role_name(share.role)) : optics_name(share);
+        if (!written.insert(name).second) continue;
         if (share.role == Role::soil && share.role_from == RoleSource::name) continue;  // [soil] describes it
-        const TypicalOptics& optics = *std::find_if(std::begin(typical), std::end(typical),
-                                                    [&](const TypicalOptics& known) { return known.role == share.role; });
-        text_ += fmt::format("\n[optics.{}]   # {} by its {}\nreflectance   = {:.2f}\n", toml_key(name), role_name(share.role),
-                             role_source_name(share.role_from), optics.reflectance);
-        if (optics.transmittance > 0.0) text_ += fmt::format("transmittance = {:.2f}\n", optics.transmittance);
-        if (share.role_from == RoleSource::shape) text_ += fmt::format("role          = \"{}\"\n", role_name(share.role));
+        add_typical_optics(name, share);
       }
     }
+  }
+
+  // Returns the name of a material's optics; triangles without one have those of their role.
+  [[nodiscard]] static std::string optics_name(const MeshShare& material) {
+    return material.name == no_material ? std::string(role_name(material.role)) : material.name;
+  }
+
+  void add_typical_optics(const std::string& name, const MeshShare& share) {
+    const TypicalOptics& optics = *std::find_if(std::begin(typical), std::end(typical),
+                                                [&](const TypicalOptics& known) { return known.role == share.role; });
+    text_ += fmt::format("\n[optics.{}]   # {} by its {}\nreflectance   = {:.2f}\n", toml_key(name), role_name(share.role),
+                         role_source_name(share.role_from), optics.reflectance);
+    if (optics.transmittance > 0.0) text_ += fmt::format("transmittance = {:.2f}\n", optics.transmittance);
+    if (share.role_from == RoleSource::shape) text_ += fmt::format("role          = \"{}\"\n", role_name(share.role));
+  }
+
+  // Returns whether a mesh names no material, but organs of several roles.
+  [[nodiscard]] static bool has_roles_by_organ(const SurveyedMesh& mesh) {
+    const std::vector<MeshShare>& families = mesh.survey.families;
+    if (mesh.survey.has_materials()) return false;
+    return std::any_of(families.begin(), families.end(),
+                       [&](const MeshShare& family) { return family.role != families.front().role; });
+  }
+
+  // Returns the role of most of a mesh's area.
+  [[nodiscard]] static Role usual_role(const std::vector<MeshShare>& families) {
+    std::map<Role, double> areas;
+    for (const MeshShare& family : families) areas[family.role] += family.area;
+    return std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+
+  // Gives each organ the optics of its role. The longest names come first, since their beginnings may be names, too.
+  void add_optics_by_organ(const SurveyedMesh& mesh) {
+    std::vector<MeshShare> families = mesh.survey.families;
+    const Role usual = usual_role(families);
+    std::stable_sort(families.begin(), families.end(),
+                     [](const MeshShare& a, const MeshShare& b) { return a.name.size() > b.name.size(); });
+    const auto shadowed = [&](const MeshShare& family) {
+      return std::any_of(families.begin(), families.end(), [&](const MeshShare& other) {
+        return other.role != usual && lower_case(family.name).starts_with(lower_case(other.name));
+      });
+    };
+    text_ += "optics = { ";
+    for (const MeshShare& family : families) {
+      if (family.role != usual || shadowed(family))
+        text_ += fmt::format("{} = \"{}\", ", toml_string(family.name + "*"), role_name(family.role));
+    }
+    text_ += fmt::format("\"*\" = \"{}\" }}   # by the names of organs: the file names no material\n", role_name(usual));
   }
 
   void add_geometry(std::size_t number) {
@@ -145,9 +188,10 @@ class MeshSceneText {
     if (mesh.survey.needs_split())
       text_ += fmt::format("split = \"parts\"   # {} connected pieces become organs of their own\n", mesh.survey.shape.pieces);
     add_frame(frame);
-    text_ += fmt::format("at    = [[{:.5f}, {:.5f}, {:.5f}]]   # moves the middle of the mesh there\n",
-                         centre_m.x - 0.5 * (mesh.lo_m.x + mesh.hi_m.x), lift_m(mesh),
-                         centre_m.y - 0.5 * (mesh.lo_m.z + mesh.hi_m.z));
+    const double up_m = lift_m(mesh);
+    text_ += fmt::format("at    = [[{:.5f}, {:.5f}, {:.5f}]]   # moves the middle of the mesh there{}\n",
+                         centre_m.x - 0.5 * (mesh.lo_m.x + mesh.hi_m.x), up_m, centre_m.y - 0.5 * (mesh.lo_m.z + mesh.hi_m.z),
+                         up_m == 0.0 ? "" : ", and its lowest point to the ground");
   }
 
   // Gives triangles without a material optics, and leaves those of the file's materials as they are.
@@ -155,11 +199,16 @@ class MeshSceneText {
     const std::vector<MeshShare>& materials = mesh.survey.materials;
     const auto unnamed = [](const MeshShare& share) { return share.name == no_material; };
     if (std::none_of(materials.begin(), materials.end(), unnamed)) return;
-    if (materials.size() == 1) {
-      text_ += fmt::format("optics = \"{}\"   # the file names no material\n", default_optics);
+    if (has_roles_by_organ(mesh)) {
+      add_optics_by_organ(mesh);
       return;
     }
-    text_ += fmt::format("optics = {{ \"{}\" = \"{}\"", unnamed_material, default_optics);
+    if (materials.size() == 1) {
+      text_ += fmt::format("optics = \"{}\"   # the file names no material\n", optics_name(materials.front()));
+      return;
+    }
+    text_ += fmt::format("optics = {{ \"{}\" = \"{}\"", unnamed_material,
+                         optics_name(*std::find_if(materials.begin(), materials.end(), unnamed)));
     for (const MeshShare& share : materials) {
       if (!unnamed(share)) text_ += fmt::format(", {} = {}", toml_string(share.name), toml_string(share.name));
     }

@@ -134,7 +134,9 @@ std::vector<std::string> plausibility_warnings(const Scene& scene, bool all_z_up
   const Stand stand = stand_of(scene.model.canopy, surfaces);
   if (stand.top_m > tallest_m) {
     warnings.push_back(fmt::format(
-        "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01", file, stand.top_m));
+        "{}: the highest element is {:.4g} m above the ground; for a mesh in centimetres add scale = 0.01, for one in "
+        "millimetres scale = 0.001",
+        file, stand.top_m));
   } else if (stand.area_m2 > densest * scene.model.plot.area_m2()) {
     warnings.push_back(fmt::format("{}: {:.4g} m2 of plants stand on {:.4g} m2; check plot.size, in metres, and scale", file,
                                    stand.area_m2, scene.model.plot.area_m2()));

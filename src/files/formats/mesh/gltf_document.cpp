@@ -70,11 +70,14 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// Returns the library's message without the error name in front, [json.exception.parse_error.101].
-std::string_view reason_of(const json::exception& problem) {
-  const std::string_view words = problem.what();
+// Returns the library's message without the error name in front, [json.exception.parse_error.101], and without most of a long token.
+std::string reason_of(const json::exception& problem) {
+  constexpr std::size_t most = 200;
+  std::string words = problem.what();
   const std::size_t name = words.find("] ");
-  return words.starts_with('[') && name != words.npos ? words.substr(name + 2) : words;
+  if (words.starts_with('[') && name != words.npos) words.erase(0, name + 2);
+  if (words.size() > most) words = words.substr(0, most) + "...";
+  return words;
 }
 
 json parse_json(const MeshSource& source, std::string_view text) {

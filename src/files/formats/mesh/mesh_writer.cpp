@@ -11,8 +11,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <limits>
 #include <map>
 #include <string>
@@ -28,7 +31,8 @@ using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
 
 class GltfWriter {
  public:
-  GltfWriter(const Mesh& mesh, Axes axes) : mesh_(mesh), axes_(axes), new_number_(mesh.vertices.size(), unused) {
+  GltfWriter(const Mesh& mesh, Axes axes)
+      : mesh_(mesh), axes_(axes), origin_m_(origin_m()), new_number_(mesh.vertices.size(), unused) {
     model_.asset.version = "2.0";
     model_.asset.generator = "sunfleck";
     model_.buffers.emplace_back();
@@ -58,6 +62,24 @@ class GltfWriter {
  private:
   static constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
 
+  // Returns where positions are counted from. A mesh that lies several times its own size from zero would lose digits in single
+  // precision, so each node moves it there.
+  [[nodiscard]] glm::dvec3 origin_m() const {
+    if (mesh_.vertices.empty()) return glm::dvec3(0.0);
+    glm::dvec3 lo = y_up_direction(axes_, mesh_.vertices.front()), hi = lo;
+    for (const glm::dvec3& vertex_m : mesh_.vertices) {
+      lo = glm::min(lo, y_up_direction(axes_, vertex_m));
+      hi = glm::max(hi, y_up_direction(axes_, vertex_m));
+    }
+    const glm::dvec3 size_m = hi - lo;
+    const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
+    glm::dvec3 origin_m = glm::round(0.5 * (lo + hi));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(origin_m[axis]) <= 4.0 * largest_m) origin_m[axis] = 0.0;
+    }
+    return origin_m;
+  }
+
   void add_organ(const Organ& organ, const Groups& groups) {
     std::vector<std::uint32_t> vertices;  // vertices of the mesh, in the order of first use
     tinygltf::Mesh shape;
@@ -85,6 +107,7 @@ class GltfWriter {
     tinygltf::Node node;
     node.name = node_name(organ);
     node.extras = organ_extras(organ);
+    if (origin_m_ != glm::dvec3(0.0)) node.translation = {origin_m_.x, origin_m_.y, origin_m_.z};
     node.mesh = static_cast<int>(model_.meshes.size());
     shape.name = node.name;
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
@@ -102,7 +125,7 @@ class GltfWriter {
   int add_corners(const std::vector<std::uint32_t>& vertices) {
     std::vector<std::array<float, 3>> positions;
     for (const std::uint32_t vertex : vertices) {
-      const glm::vec3 position(y_up_direction(axes_, mesh_.vertices[vertex]));
+      const glm::vec3 position(y_up_direction(axes_, mesh_.vertices[vertex]) - origin_m_);
       positions.push_back({position.x, position.y, position.z});
     }
     return add_positions(model_, positions);
@@ -110,6 +133,7 @@ class GltfWriter {
 
   const Mesh& mesh_;
   const Axes axes_;
+  const glm::dvec3 origin_m_;
   std::vector<std::uint32_t> new_number_;  // [mesh vertex], number within the current organ
   tinygltf::Model model_;
 };

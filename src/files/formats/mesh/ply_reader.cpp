@@ -157,6 +157,7 @@ class PlyReader {
 
   Mesh read() {
     for (const PlyElement& element : header_.elements) check_element(element);
+    expect_faces();
     builder_.reserve_vertices(vertices_);
     for (const auto& [number, name] : header_.organs) objects_.emplace(number, builder_.add_object(name));
     takes_colours_ = header_.organs.empty() && header_.optics.empty() &&
@@ -188,6 +189,22 @@ class PlyReader {
     if (element.name != "vertex") return;
     check_vertex(element);
     vertices_ += element.count;
+  }
+
+  // Refuses a file whose surfaces are lists of another name, or strips.
+  void expect_faces() const {
+    for (const PlyElement& element : header_.elements) {
+      if (element.has(PlyUse::corners)) return;
+    }
+    for (const PlyElement& element : header_.elements) {
+      for (const PlyProperty& property : element.properties) {
+        if (!property.list_size || element.count == 0) continue;
+        refuse(source_, 0, "no faces found",
+               fmt::format("element {} has the list {}; faces have vertex_indices or vertex_index", in_quotes(element.name),
+                           in_quotes(property.name)),
+               "rename it in the header, or export faces of triangles");
+      }
+    }
   }
 
   // Returns the fewest bytes that a property can take. A list may be empty; in a text file, a blank follows every number but

@@ -6,10 +6,12 @@
 #include "support/plant_mesh.h"
 #include "support/temp_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -77,6 +79,40 @@ TEST(MeshScene, LiftsWhatFloatsOrIsBuried) {
     const Scene scene = made_scene(folder, {"a.obj"});
     EXPECT_NEAR(bounds(scene.model.canopy).lo.y + scene.model.canopy.origin_m.y, 0.0, 1e-6) << up_m;
   }
+}
+
+// Leaves of five triangles on a tube, in a file without materials.
+std::string tree_without_materials(const std::string& leaf, const std::string& trunk) {
+  std::string text = "o " + trunk + "\nv 0 0 0\nv 0.02 0 0\nv 0.02 0 2\nv 0 0 2\nf 1 2 3\nf 1 3 4\n";
+  for (int k = 0; k < 9; ++k) {
+    const double z = 1.0 + 0.1 * k;
+    text += fmt::format("o {}.{}\nv 0 0 {}\nv 0.2 0 {}\nv 0.2 0.2 {}\nf -3 -2 -1\n", leaf, k, z, z, z);
+  }
+  return text;
+}
+
+TEST(MeshScene, GivesOrgansTheOpticsOfTheirRoles) {
+  const TempFolder folder;
+  for (const auto& [leaf, trunk] : {std::pair<const char*, const char*>{"leaf", "trunk"}, {"leaf stalk leaf", "leaf stalk"}}) {
+    folder.write("tree.obj", tree_without_materials(leaf, trunk));
+    const Scene scene = made_scene(folder, {"tree.obj"});
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+    const RadiationModel& model = scene.model;
+    for (std::size_t e = 0; e < model.canopy.size(); ++e) {
+      const bool of_leaf = model.canopy.organs[model.canopy.organ_of[e]].name != trunk;
+      const SurfaceOptics& optics = model.optics[model.canopy.optics_of[e]];
+      EXPECT_EQ(optics.name, of_leaf ? "leaf" : "stem");
+      EXPECT_EQ(optics.upper[0].transmittance, of_leaf ? 0.05 : 0.0);
+    }
+  }
+}
+
+TEST(MeshScene, NamesTheOpticsOfAStemByItsRole) {
+  const TempFolder folder;
+  folder.write("stem.obj", "o stem\nv 0 0 0\nv 0.02 0 0\nv 0.02 0 1\nf 1 2 3\n");
+  const Scene scene = made_scene(folder, {"stem.obj"});
+  EXPECT_EQ(scene.model.canopy.optics_names, std::vector<std::string>{"stem"});
+  EXPECT_EQ(scene.model.optics[0].upper[0].transmittance, 0.0);
 }
 
 TEST(MeshScene, QuotesEveryName) {

@@ -354,6 +354,9 @@ TEST(GltfReader, RefusesPositionsThatAreNotFinite) {
 
 TEST(GltfReader, RefusesTextInItsOwnWords) {
   const TempFolder folder;
+  folder.write("cut.gltf", "{\"buffers\": [{\"uri\": \"data:;base64," + std::string(10'000, 'A'));
+  EXPECT_LT(refusal_of([&] { static_cast<void>(read_mesh(folder / "cut.gltf", {})); }).size(), 400U)
+      << "no buffer in a message";
   for (const auto& wrong : {std::pair("some words\n", "not a glTF file"), std::pair("{\"a\": x}", "malformed JSON (parse")}) {
     const std::string message = refusal_of([&] { static_cast<void>(read_mesh(folder.write("a.glb", wrong.first), {})); });
     EXPECT_NE(message.find(wrong.second), std::string::npos) << message;

@@ -91,6 +91,7 @@ TEST(MeshAttack, BrokenPly) {
   std::string nan = ply_binary_square(ByteOrder::little);
   nan.replace(nan.find("end_header\n") + 13, 8, "\xff\xff\xff\xff\xff\xff\xff\xff");
   expect_refused({
+      {"faces by another name", "a.ply", bad("vertex_indices", "vertex_ids"), ": ", "has the list 'vertex_ids'; faces have"},
       {"no PLY", "a.ply", bad("ply", "plx"), ":1: ", "does not begin with ply"},
       {"no format", "a.ply", bad("format ascii 1.0\n", ""), ":13: ", "the format line is missing"},
       {"unknown format", "a.ply", bad("ascii", "utf8"), ":2: ", "must be ascii"},

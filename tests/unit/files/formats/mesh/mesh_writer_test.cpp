@@ -53,6 +53,25 @@ Mesh random_mesh() {
   return mesh;
 }
 
+TEST(MeshWriter, KeepsTheShapeOfAMeshFarFromZero) {
+  const TempFolder folder;
+  Mesh mesh = random_mesh();
+  for (glm::dvec3& vertex : mesh.vertices) vertex = 1e-3 * vertex + glm::dvec3(500000.0, 0.0, 4.2e6);  // as in UTM
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    write_mesh(mesh, folder / name);
+    const Mesh back = read_mesh(folder / name, {});
+    ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+    glm::dvec3 lo(1e9), hi(-1e9);
+    for (const glm::dvec3& vertex : back.vertices) {
+      lo = glm::min(lo, vertex);
+      hi = glm::max(hi, vertex);
+    }
+    EXPECT_NEAR(lo.x, 500000.0, 1e-3) << name;
+    EXPECT_NEAR(hi.x - lo.x, 0.999 / 7.0, 2e-3) << name;
+    EXPECT_NEAR(hi.z, 4.2e6, 1e-6) << name;
+  }
+}
+
 TEST(MeshWriter, RoundTripIsExactInSinglePrecision) {
   const TempFolder folder;
   const Mesh mesh = random_mesh();
