@@ -53,7 +53,7 @@ class Signals : public FaultTest {
 };
 
 TEST_F(Signals, AtAnyTimeEndARunCleanly) {
-  constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
   constexpr int count = 9;
   std::vector<int> all = moments(undisturbed(whole_run_).second, count, 1);
   all.insert(all.begin(), 0);
@@ -62,7 +62,7 @@ TEST_F(Signals, AtAnyTimeEndARunCleanly) {
   for (const int moment : all) {
     SCOPED_TRACE(moment);
     std::filesystem::remove_all(folder_ / "out");
-    const Outcome outcome = run_and_send(whole_run_, signals[turn++ % 3], moment);
+    const Outcome outcome = run_and_send(whole_run_, signals[turn++ % std::size(signals)], moment);
     // Like every program, it may be killed before main.
     const bool not_begun = outcome.status == -1 && !std::filesystem::exists(folder_ / "out");
     EXPECT_TRUE(outcome.status == 130 || outcome.status == 0 || not_begun) << outcome.status << outcome.err;

@@ -338,6 +338,20 @@ def test_optics_that_can_change_nothing_are_refused(name, cure):
         assert f"optics.{name} (" in str(refused.value) and cure in str(refused.value)
 
 
+def test_the_entry_of_a_geometry_is_named():
+    good = {"vertices": LEAVES, "optics": "leaf"}
+    bad, far = {**good, "scale": -1.0}, {**good, "at": [[1.0, 2.0, 3.0]] * 20}
+    for entries, name in (
+        ([good, good, bad], "geometry[2].scale"),
+        ([far, bad, far], "geometry[1].scale"),
+        ([far, bad], "geometry[1].scale"),
+        ([bad], "geometry.scale"),
+    ):
+        with pytest.raises(sunfleck.InputError) as refused:
+            sunfleck.Simulation({**TABLES, "geometry": entries}, device="cpu")
+        assert str(refused.value).startswith(f"scene: {name} = -1")
+
+
 def test_plants_that_others_are_numbered_as_are_refused():
     first = {"vertices": LEAVES, "optics": "leaf", "plant": 1, "at": [[0.0, 0.0, 0.0], [0.5, 0.0, 0.5]]}
     second = {"vertices": LEAVES, "optics": "leaf", "plant": 2}

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 import sunfleck
-from conftest import program
+from conftest import TABLES, program, with_arrays
 
 PAPER = "2002-08-08T10:10:00+08:00"
 
@@ -98,3 +98,14 @@ def test_bad_skies():
         sunfleck.sky("uniform").radiance(float("nan"), 0.0)
     with pytest.raises(ValueError, match="masked"):
         sunfleck.sky("uniform").radiance(np.ma.masked_equal([10.0, 20.0], 20.0), 0.0)
+
+
+def test_times_of_numpy_are_utc_and_offsets_may_have_seconds():
+    place = {"latitude": 48.85, "longitude": 2.35}
+    utc = datetime.datetime(2024, 7, 10, 10, 0, tzinfo=datetime.timezone.utc)
+    odd = utc.astimezone(datetime.timezone(datetime.timedelta(hours=2, seconds=30)))
+    suns = {
+        sunfleck.Simulation(with_arrays({**TABLES, "sun": {"time": time, **place}}), device="cpu").sun
+        for time in (utc, odd, np.datetime64("2024-07-10T10:00"), np.datetime64("2024-07-10T10:00", "ns"))
+    }
+    assert len(suns) == 1

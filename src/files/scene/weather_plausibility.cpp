@@ -18,6 +18,9 @@ constexpr double longest_interval_s = 2.0 * 3600.0;  // longer ones say little a
 constexpr double good_fit = 0.8;
 constexpr double better_by = 0.03;  // a sun moved by one hour loses 0.05, by half an hour 0.015
 constexpr double least_offset_h = 1.0;
+constexpr double least_mean_s = 1800.0;    // light of clouds' edges does not last so long
+constexpr double high_sun_sine = 0.34;     // 20 degrees
+constexpr double dark_w_m2 = 5.0;          // more comes with a high sun through any cloud
 constexpr double night_rad = -0.1047;      // 6 degrees below the horizon: the end of civil twilight
 constexpr double night_light_w_m2 = 20.0;  // above the zero error of instruments
 constexpr double day_s = 86400.0;
@@ -118,8 +121,10 @@ double outside_w_m2(std::optional<int> day) {
   return extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
 }
 
-// Returns which value of an interval is impossible, with its limit.
-std::optional<std::string> excess(const WeatherInterval& interval, double elevation_rad, std::optional<int> day) {
+// Returns which value of an interval is impossible, with its limit. A mean over a long time, unlike a moment, is never more than what
+// comes from outside the atmosphere.
+std::optional<std::string> excess(const WeatherInterval& interval, double elevation_rad, std::optional<int> day,
+                                  bool is_long_mean) {
   const double sine = std::max(0.0, std::sin(elevation_rad));
   const double outside = outside_w_m2(day);
   const double level = outside * std::pow(sine, 1.2);
@@ -127,9 +132,36 @@ std::optional<std::string> excess(const WeatherInterval& interval, double elevat
     if (value <= limit) return std::nullopt;
     return fmt::format("{} = {:.6g} W m-2 is more than the sun can send; at most {:.0f}", name, value, limit);
   };
-  if (!interval.has_parts()) return over("ghi", interval.ghi_w_m2, 1.5 * level + 100.0);
+  if (!interval.has_parts()) {
+    auto found = over("ghi", interval.ghi_w_m2, is_long_mean ? outside * sine + 50.0 : 1.5 * level + 100.0);
+    if (found && is_long_mean) *found += "; PAR in umol m-2 s-1 is about twice as many as W m-2 of all solar light";
+    return found;
+  }
   if (auto found = over("dni", interval.dni_w_m2, outside)) return found;
   return over("dhi", interval.dhi_w_m2, 0.95 * level + 50.0);
+}
+
+// Returns a warning about intervals that are too long for the sun's course, or light that is too faint for a high sun.
+std::optional<std::string> unlikely(const Weather& weather, const std::vector<Sample>& samples, const Place& place,
+                                    const std::string& where) {
+  constexpr double hour_s = 3600.0;
+  if (!weather.intervals.empty() && weather.intervals.front().length_s > longest_interval_s) {
+    return fmt::format(
+        "{}: its intervals last {:.3g} hours, and all light within one is the same, however high the sun is; give hourly "
+        "values",
+        where, weather.intervals.front().length_s / hour_s);
+  }
+  std::size_t high = 0;
+  double most_w_m2 = 0.0;
+  for (const Sample& sample : samples) {
+    if (sine_of_elevation(sample, place.latitude_rad, 0.0) < high_sun_sine) continue;
+    ++high;
+    most_w_m2 = std::max(most_w_m2, sample.light_w_m2);
+  }
+  if (high < fewest_samples || most_w_m2 >= dark_w_m2) return std::nullopt;
+  return fmt::format(
+      "{}: with the sun above 20 degrees it has at most {:.3g} W m-2; values in kW m-2 or MJ m-2 must be converted", where,
+      most_w_m2);
 }
 
 // Returns the highest elevation in the interval, judged by its ends and its middle.
@@ -150,6 +182,7 @@ std::vector<std::string> weather_warnings(const Weather& weather, const Place& p
   if (samples.size() >= fewest_samples) {
     if (auto found = misfit(samples, place, where)) return {*found};
   }
+  if (auto found = unlikely(weather, samples, place, where)) return {*found};
   bool at_night = false, too_much = false;
   for (const Sample& sample : samples) {
     if (sample.light_w_m2 <= night_light_w_m2 || (at_night && too_much)) continue;
@@ -161,7 +194,8 @@ std::vector<std::string> weather_warnings(const Weather& weather, const Place& p
                       "have 0",
                       where, sample.interval->line, sample.light_w_m2, -glm::degrees(highest)));
     } else if (!too_much && highest >= night_rad) {
-      const auto found = excess(*sample.interval, highest, day_of_year(sample.interval->start));
+      const auto found =
+          excess(*sample.interval, highest, day_of_year(sample.interval->start), sample.interval->length_s >= least_mean_s);
       too_much = found.has_value();
       if (found) warnings.push_back(fmt::format("{}: in line {}, {}", where, sample.interval->line, *found));
     }
@@ -171,7 +205,7 @@ std::vector<std::string> weather_warnings(const Weather& weather, const Place& p
 
 std::vector<std::string> moment_warnings(const WeatherInterval& moment, const SunPosition& sun, std::optional<int> day,
                                          const std::string& where) {
-  const auto found = excess(moment, sun.elevation_rad, day);
+  const auto found = excess(moment, sun.elevation_rad, day, false);
   if (!found) return {};
   return {fmt::format("{}: {}", where, *found)};
 }

@@ -53,6 +53,15 @@ class SceneSource:
         """The file by its name as given or, once the current folder has changed, by its absolute name."""
         return self.file if self.file.absolute() == self._absolute else self._absolute
 
+    def entry_at(self, line: int) -> str:
+        """Returns the entry of `geometry` at a line of the text: geometry[3] of several, geometry of a single one."""
+        lines = (self.text or "").splitlines()
+        entries = [number for number, words in enumerate(lines, start=1) if words == "[[geometry]]"]
+        if not entries and "geometry = [" in lines:  # short entries stand in lines of their own
+            first = lines.index("geometry = [") + 2
+            entries = list(range(first, lines.index("]", first) + 1))
+        return f"geometry[{sum(number <= line for number in entries) - 1}]" if len(entries) > 1 else "geometry"
+
     def keep(self, content: bytes) -> None:
         """Keeps the content of a scene file, so that changes of the file do not reach a scene that was read before."""
         self._content = content
@@ -141,6 +150,9 @@ def _plain(value: Any, place: str) -> Any:
         return {name: _plain(value[key], f"{place}.{name}") for key, name in keys.items() if value[key] is not None}
     if isinstance(value, str):
         text(value, place)
+    if isinstance(value, np.datetime64):
+        value = value.astype("datetime64[us]").item()
+        value = value.replace(tzinfo=datetime.timezone.utc) if value is not None else "NaT"
     if isinstance(value, (bool, int, float, str, datetime.datetime)):
         return _moment(value, place) if place.endswith(".time") else value
     if isinstance(value, np.generic):
@@ -155,13 +167,14 @@ def _plain(value: Any, place: str) -> Any:
 
 
 def _moment(value: Any, place: str) -> Any:
-    """Returns a time as a datetime; reads strings as ISO 8601."""
-    if not isinstance(value, str):
-        return value
-    try:
-        return datetime.datetime.fromisoformat(value)
-    except ValueError:
-        refuse(f'{place} = "{value}"', "must be a date and time", "write 2002-08-08T10:10:00+08:00")
+    """Returns a time as a datetime, in UTC if its offset has seconds, which TOML does not know; reads strings as ISO 8601."""
+    if isinstance(value, str):
+        try:
+            value = datetime.datetime.fromisoformat(value)
+        except ValueError:
+            refuse(f'{place} = "{value}"', "must be a date and time", "write 2002-08-08T10:10:00+08:00")
+    offset = value.utcoffset() if isinstance(value, datetime.datetime) else None
+    return value.astimezone(datetime.timezone.utc) if offset and offset.total_seconds() % 60 else value
 
 
 def _array(value: Any, name: str, kinds: str, wanted: str) -> np.ndarray:

@@ -39,6 +39,7 @@ def without_line_numbers(source: SceneSource) -> Iterator[None]:
 def of_dict(message: str, source: SceneSource) -> str:
     """Returns a message about a text that the user never saw without line numbers, and in Python's words."""
     begin = re.escape(str(source.present_file))
+    message = re.sub(rf"^{begin}:(\d+): geometry\b", lambda found: f"{source.file.name}: {source.entry_at(int(found[1]))}", message)
     return in_python(re.sub(rf"^{begin}(:\d+)?: ", f"{source.file.name}: ", message))
 
 

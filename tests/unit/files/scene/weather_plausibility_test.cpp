@@ -60,6 +60,36 @@ TEST(WeatherPlausibility, NightsAreDark) {
   EXPECT_TRUE(weather_warnings(weather, paris, "w").empty());
 }
 
+TEST(WeatherPlausibility, HoursAreNoBrighterThanWithoutAir) {
+  Weather weather = clear_hours(48, paris);
+  for (WeatherInterval& interval : weather.intervals) interval.ghi_w_m2 *= 2.06;  // PAR in umol m-2 s-1
+  const std::string warning = only_warning(weather, paris);
+  EXPECT_NE(warning.find("is more than the sun can send; at most"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("PAR in umol m-2 s-1"), std::string::npos) << warning;
+  weather = clear_hours(48, paris);
+  for (WeatherInterval& interval : weather.intervals) {
+    interval.ghi_w_m2 *= 1.3;
+    interval.length_s = 60.0;
+  }
+  EXPECT_TRUE(weather_warnings(weather, paris, "w").empty()) << "edges of clouds brighten minutes";
+}
+
+TEST(WeatherPlausibility, UnitsOfEnergyAreNoWatts) {
+  Weather weather = clear_hours(48, paris);
+  for (WeatherInterval& interval : weather.intervals) interval.ghi_w_m2 *= 3.6e-3;
+  EXPECT_NE(only_warning(weather, paris).find("values in kW m-2 or MJ m-2 must be converted"), std::string::npos);
+}
+
+TEST(WeatherPlausibility, DaysHaveNoCourse) {
+  Weather weather = clear_hours(3, paris);
+  for (std::size_t day = 0; day < weather.intervals.size(); ++day) {
+    weather.intervals[day].start = {2020, 6, static_cast<int>(day) + 1};
+    weather.intervals[day].length_s = 86400.0;
+    weather.intervals[day].ghi_w_m2 = 250.0;
+  }
+  EXPECT_NE(only_warning(weather, paris).find("its intervals last 24 hours"), std::string::npos);
+}
+
 TEST(WeatherPlausibility, LightIsAtMostThatOfTheSun) {
   Weather weather = clear_hours(48, paris);
   weather.intervals[12].ghi_w_m2 = 2500.0;
