@@ -52,7 +52,7 @@ std::string value_text(const ordered_json& settings, const std::string& key) {
 
 // Returns what users call a setting.
 std::string setting_name(const std::string& key) {
-  if (key == "of_triangles" || key == "triangles") return "the light of single triangles (for --export and --images)";
+  if (key == "of_triangles" || key == "triangles") return "the light of triangles for --export and --images";
   return printable(key);
 }
 

@@ -177,6 +177,31 @@ void add_steps(DayPlan& plan, const LocalDate& date, int step_min, const Place& 
   plan.course.dates.push_back(fmt::format("{:04}-{:02}-{:02}", date.year, date.month, date.day));
 }
 
+// Sets the light of all steps. Throws the first error of the weather, with how many steps have one.
+void add_lights(DayPlan& plan, const Scene& scene) {
+  std::optional<std::string> first_error;
+  std::size_t errors = 0, last = 0;
+  for (std::size_t k = 0; k < plan.course.steps.size(); ++k) {
+    const DayStep& step = plan.course.steps[k];
+    try {
+      plan.lights.push_back(step.unlit()   ? MomentLight{}
+                            : step.night() ? light_at_night(scene, step.middle)
+                                           : light_of_step(scene, step.middle, step.length_s));
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;
+      if (!first_error) first_error = error.what();
+      ++errors;
+      last = k;
+    }
+  }
+  if (!first_error) return;
+  if (errors > 1) {
+    *first_error += fmt::format("; it is the first of {} such steps, the last begins at {}", errors,
+                                local_time_text(plan.course.steps[last].start, plan.course.offset_minutes));
+  }
+  throw Error(ErrorKind::input, *first_error);
+}
+
 }  // namespace
 
 std::string clock_text(int minutes) {
@@ -195,11 +220,7 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   for (const sys_days date : dates) {
     add_steps(plan, local_date(date, plan.course.offset_minutes), request.step_min, scene.moment->place, lamps);
   }
-  for (const DayStep& step : plan.course.steps) {
-    plan.lights.push_back(step.unlit()   ? MomentLight{}
-                          : step.night() ? light_at_night(scene, step.middle)
-                                         : light_of_step(scene, step.middle, step.length_s));
-  }
+  add_lights(plan, scene);
   return plan;
 }
 

@@ -352,6 +352,17 @@ def test_the_entry_of_a_geometry_is_named():
         assert str(refused.value).startswith(f"scene: {name} = -1")
 
 
+def test_missing_vertices_are_named():
+    for key, cure in (("vertces", "did you mean it by vertces?"), ("other", "give it beside triangles")):
+        part = {key: LEAVES, "triangles": [[0, 1, 2]], "optics": "leaf"}
+        with pytest.raises(sunfleck.InputError, match=re.escape(f"geometry[0].vertices (is missing); {cure}")):
+            sunfleck.Simulation({**TABLES, "geometry": [part]}, device="cpu")
+
+
+def test_kinds_of_devices_may_be_written_in_any_case():
+    assert sunfleck.Simulation(with_arrays(), device="CPU").device["kind"] == "cpu"
+
+
 def test_plants_that_others_are_numbered_as_are_refused():
     first = {"vertices": LEAVES, "optics": "leaf", "plant": 1, "at": [[0.0, 0.0, 0.0], [0.5, 0.0, 0.5]]}
     second = {"vertices": LEAVES, "optics": "leaf", "plant": 2}

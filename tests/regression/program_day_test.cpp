@@ -327,7 +327,8 @@ TEST_F(Day, LeavesOutTheLightOfTrianglesIfTold) {
   for (const char* name : {"day.csv", "day_sums.csv", "organs_day.csv", "plants_day.csv"})
     EXPECT_EQ(file(name, "without"), file(name)) << name;
   expect_day(without + Arguments{"--resume"}, 0, "without");
-  expect_one_error(day(morning + Arguments{"--resume"}, "without"), 2, "triangles was false, now true");
+  expect_one_error(day(morning + Arguments{"--resume"}, "without"), 2,
+                   "the light of triangles for --export and --images was false, now true");
 }
 
 TEST_F(Day, GoesOnWhereItWasKilled) {

@@ -108,7 +108,7 @@ TEST_F(Resume, GoesOnWithTheSameSettingsOnly) {
   Arguments coarse = again;
   const auto exports = std::find(coarse.begin(), coarse.end(), "--export");
   coarse.erase(exports, exports + 2);
-  expect_one_error(run(coarse), 2, "of_triangles was true, now false");
+  expect_one_error(run(coarse), 2, "the light of triangles for --export and --images was true, now false");
   folder_.write("leaves.obj", regression::leaves_obj + "f 1 2 4\n");
   expect_one_error(run(again), 2, "the scene, or a file that it names, has changed since that run");
   folder_.write("leaves.obj", regression::leaves_obj);

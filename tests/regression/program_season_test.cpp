@@ -202,9 +202,9 @@ TEST_F(Season, OrgansHaveEveryStep) {
 }
 
 TEST_F(Season, ReadingsOfAStepAreThoseOfItsMoment) {
-  expect_day({"--from", "08:40", "--to", "12:40", "--step", "60", "--seed", "5"});
+  expect_day({"--from", "09:00", "--to", "13:00", "--step", "60", "--seed", "5"});  // hours of the weather
   std::string text = scene_text;
-  text.replace(text.find("T10:10"), 6, "T11:10");
+  text.replace(text.find("T10:10"), 6, "T11:30");
   folder_.write("moment.toml", text);
   simulate("moment.toml", {"--device", "cpu", "--images", "none"}, 0, "single");
   const Table points(file("sensors_day.csv")), moment(file("sensors.csv", "single"));
@@ -214,7 +214,7 @@ TEST_F(Season, ReadingsOfAStepAreThoseOfItsMoment) {
   ASSERT_EQ(points.size(), 4U * moment.size());
   ASSERT_EQ(means.size(), 8U);
   constexpr std::size_t step = 2;
-  EXPECT_EQ(points.cell(4 * step, "time"), "2002-08-08T10:40:00+08:00");
+  EXPECT_EQ(points.cell(4 * step, "time"), "2002-08-08T11:00:00+08:00");
   // Independent estimates; 2.2 of their joint intervals are more than four standard errors, for some forty figures.
   const auto expect_near = [](const Table& of_day, std::size_t row, const Table& alone, std::size_t its_row,
                               const std::string& name) {

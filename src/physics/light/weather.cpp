@@ -35,29 +35,13 @@ Broadband split(double global_w_m2, double direct_horizontal_w_m2, const SunPosi
   return {direct_horizontal_w_m2 / sine, std::max(0.0, global_w_m2 - direct_horizontal_w_m2)};
 }
 
-// Returns the time in the year that represents every year.
+// Returns the time in the year that represents every year. Where that has no 29 February, the day before stands for it.
 UtcTime in_typical_year(const Weather& weather, const UtcTime& time) {
   UtcTime local = plus_seconds(time, 60.0 * weather.zone_minutes);
   const UtcTime first = plus_seconds(weather.intervals.front().start, 60.0 * weather.zone_minutes);
-  if (local.month == 2 && local.day == 29 && !std::chrono::year(first.year).is_leap()) {
-    throw_input("weather at " + text_of(weather, time), fmt::format("the year of {} has no 29 February", weather.name),
-                "choose another date, or a file with one");
-  }
+  if (local.month == 2 && local.day == 29 && !std::chrono::year(first.year).is_leap()) local.day = 28;
   local.year = first.year;
   return plus_seconds(local, -60.0 * weather.zone_minutes);
-}
-
-[[noreturn]] void refuse_time(const Weather& weather, const UtcTime& time) {
-  std::string why = "the file is empty";
-  if (!weather.intervals.empty()) {
-    const WeatherInterval& last = weather.intervals.back();
-    const UtcTime end = plus_seconds(last.start, last.length_s);
-    const bool within = time >= weather.intervals.front().start && time < end;
-    why = within ? fmt::format("{} has a gap there", weather.name)
-                 : fmt::format("{} covers {} to {}", weather.name, text_of(weather, weather.intervals.front().start),
-                               text_of(weather, end));
-  }
-  throw_input("weather at " + text_of(weather, time), why, "choose a time that it covers, or add what is missing");
 }
 
 // Returns the time in the file that stands for a time.
@@ -69,6 +53,20 @@ UtcTime time_in_file(const Weather& weather, const UtcTime& time) {
 std::vector<WeatherInterval>::const_iterator first_after(const Weather& weather, const UtcTime& time) {
   return std::upper_bound(weather.intervals.begin(), weather.intervals.end(), time,
                           [](const UtcTime& t, const WeatherInterval& each) { return t < each.start; });
+}
+
+[[noreturn]] void refuse_time(const Weather& weather, const UtcTime& time) {
+  std::string why = "the file is empty";
+  if (!weather.intervals.empty()) {
+    const auto end_of = [](const WeatherInterval& interval) { return plus_seconds(interval.start, interval.length_s); };
+    const auto next = first_after(weather, time_in_file(weather, time));
+    const bool within = next != weather.intervals.begin() && next != weather.intervals.end();
+    why = within ? fmt::format("{} has a gap there: nothing from {} to {}", weather.name,
+                               text_of(weather, end_of(*std::prev(next))), text_of(weather, next->start))
+                 : fmt::format("{} covers {} to {}", weather.name, text_of(weather, weather.intervals.front().start),
+                               text_of(weather, end_of(weather.intervals.back())));
+  }
+  throw_input("weather at " + text_of(weather, time), why, "choose a time that it covers, or add what is missing");
 }
 
 // Returns nothing if nothing was measured in the interval.

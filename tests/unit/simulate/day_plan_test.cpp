@@ -1,8 +1,10 @@
 #include "simulate/day_plan.h"
 
 #include "physics/light/sun_events.h"
+#include "support/error_text.h"
 #include "support/scene_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,6 +44,27 @@ TEST_F(DayPlanTest, LastStepEndsWithTheDay) {
   EXPECT_TRUE(plan.lights[14].bands.empty());
   EXPECT_GT(plan.lights[2].bands.at(0).direct_w_m2, 0.0);
   EXPECT_EQ(plan.lights[2].sun.elevation_rad, steps[2].sun.elevation_rad);
+}
+
+TEST_F(DayPlanTest, CountsTheStepsWithoutWeather) {
+  std::string csv = "time,ghi\n";
+  for (int day = 8; day < 11; ++day) {
+    for (int hour = 8; hour < 16; ++hour) {
+      if (hour != 11 && !(day == 9 && hour == 13)) csv += fmt::format("2002-08-{:02}T{:02}:00:00+00:00,300\n", day, hour);
+    }
+  }
+  write(folder_ / "station.csv", csv);
+  const Scene scene = read(
+      "[plot]\nsize = [1, 1]\n[sun]\nlongitude = 0\nlatitude = 40\ntime = 2002-08-08T10:10:00Z\n[weather]\nfile = "
+      "\"station.csv\"\n[sky]\nmodel = \"uniform\"\n[[band]]\nname = \"PAR\"\n",
+      {.purpose = ScenePurpose::day});
+  DayRequest options = hours("9:00", "15:00", 60);
+  options.to_date = "2002-08-10";
+  const std::string message = refusal_of([&] { static_cast<void>(plan_day(options, scene)); });
+  EXPECT_NE(message.find("has a gap there: nothing from 2002-08-08T11:00:00"), std::string::npos) << message;
+  EXPECT_NE(message.find("the first of 4 such steps, the last begins at 2002-08-10T11:00:00"), std::string::npos) << message;
+  options.to_date = "2002-08-08";
+  EXPECT_EQ(refusal_of([&] { static_cast<void>(plan_day(options, scene)); }).find("such steps"), std::string::npos);
 }
 
 TEST_F(DayPlanTest, DatesFollowTheCalendar) {

@@ -103,6 +103,9 @@ class SceneSource:
         if not isinstance(part, Mapping):
             refuse(f"{place}: {type(part).__name__}", "must be a dict", "give file, generator or vertices and triangles")
         if "vertices" not in part:
+            near = difflib.get_close_matches("vertices", [str(key) for key in part], 1)
+            if near or "triangles" in part:
+                refuse(f"{place}.vertices", "is missing", f"did you mean it by {near[0]}?" if near else "give it beside triangles")
             return _plain(part, place)
         unknown = sorted(set(part) - set(_MESH_KEYS) - set(_PART_KEYS))
         if unknown:

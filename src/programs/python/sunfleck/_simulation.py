@@ -11,7 +11,7 @@ from typing import Any, Optional, Union
 
 from . import _core
 from ._errors import InputError, in_python, refuse
-from ._options import flag, text, whole, work_options
+from ._options import device_name, flag, whole, work_options
 from ._progress import Progress, check_progress, reporting
 from ._result import Result
 from ._scene import Scene, SceneSource, refuse_unknown_optics
@@ -63,7 +63,7 @@ class Simulation:
         `organ` (names; default: as optics), `plant` and `rank` (whole numbers), one for all triangles or m of them; `up` ("x",
         "y" or "z"), `scale`, `heading` and `at`, or `positions`, `role`, `split` and `instances` work as for files. Entries that
         give the same `plant` are parts of one plant; further copies of an entry, by `at`, and entries without `plant` are numbered
-        after the plants before them.
+        after the plants before them, and a later entry cannot have such a number.
     folder: folder in which the files of a dict are looked up (default: the current folder).
     device: auto (a GPU if there is one, else cpu), gpu, lavapipe, cpu, a device number or part of a device name, as with the
         program's --device.
@@ -85,7 +85,7 @@ class Simulation:
     ) -> None:
         self._source = SceneSource(scene, folder)
         self._light: dict[str, Any] = {}
-        machine = (text(str(device), "device"), whole(threads, "threads", 0, 4096))
+        machine = (device_name(device), whole(threads, "threads", 0, 4096))
         access = flag(allow_outside, "allow_outside")
         with self._tidied():
             self._core = _core.Simulation(os.fspath(self._source.file), self._source.text, self._source.meshes, access, *machine)

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
