@@ -1,5 +1,6 @@
 #pragma once
-// Handles Ctrl-C, SIGTERM, the closing of the terminal, and what batch systems send before a time limit (SIGUSR1, SIGXCPU). Signals that are already ignored (nohup) stay ignored.
+// Handles Ctrl-C, SIGTERM, the closing of the terminal, and what batch systems send before a time limit (SIGUSR1, SIGXCPU). Signals
+// that are already ignored (nohup) stay ignored.
 
 namespace sunfleck {
 

@@ -16,8 +16,8 @@
 
 namespace sunfleck {
 
-// Returns a text that is the same on all ranks that were given the same: `command` with its times, the folder and the exports of its
-// result, and the settings of its work.
+// Returns a text that is the same on all ranks that were given the same: `command` with its times, the folder and the exports
+// of its result, and the settings of its work.
 [[nodiscard]] std::string task_text(const std::string& command, const SceneRequest& scene, const ResultRequest& result,
                                     const SolveSettings& settings);
 
@@ -36,8 +36,8 @@ class Ranks {
   // Gives a request this rank's share of the cores, unless it specifies a number of threads, and its turn among equal devices.
   void take_seat(DeviceRequest& request) const;
 
-  // In rank 0: waits until the workers have read the same scene and have the same task (task_text), and reports on them. Throws their
-  // first error.
+  // In rank 0: waits until the workers have read the same scene and have the same task (task_text), and reports on them. Throws
+  // their first error.
   void gather(const Simulation& simulation, const SolveSettings& settings, const std::string& task);
   // Returns the helpers that make replicates for `solve`; null without workers.
   [[nodiscard]] ReplicateHelpers* helpers() { return helpers_.get(); }

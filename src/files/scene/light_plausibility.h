@@ -1,6 +1,6 @@
 #pragma once
-// Warns about impossible sunlight: too strong for a beam, in another unit, from an angle in another convention, at another place than
-// the clock's, or in shares that are more than all of it.
+// Warns about impossible sunlight: too strong for a beam, in another unit, from an angle in another convention, at another
+// place than the clock's, or in shares that are more than all of it.
 
 #include "files/scene/scene_reader.h"
 #include "files/scene/toml_view.h"

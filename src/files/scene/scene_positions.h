@@ -23,8 +23,8 @@ struct UsedPlants {
   std::set<std::uint32_t> counted;  // numbers that the scene does not give
 };
 
-// Refuses plant numbers that the scene gives a mesh with several plants, and those that plants without given numbers have already: parts
-// of one plant must all give its number. The plants of this mesh are added to `plants`.
+// Refuses plant numbers that the scene gives a mesh with several plants, and those that plants without given numbers have
+// already: parts of one plant must all give its number. The plants of this mesh are added to `plants`.
 void check_plant_numbers(const TomlTable& geometry, const Mesh& mesh, const std::vector<Placement>& placements,
                          UsedPlants& plants);
 

@@ -121,8 +121,8 @@ double outside_w_m2(std::optional<int> day) {
   return extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
 }
 
-// Returns which value of an interval is impossible, with its limit. A mean over a long time, unlike a moment, is never more than what
-// comes from outside the atmosphere.
+// Returns which value of an interval is impossible, with its limit. A mean over a long time, unlike a moment, is never more
+// than what comes from outside the atmosphere.
 std::optional<std::string> excess(const WeatherInterval& interval, double elevation_rad, std::optional<int> day,
                                   bool is_long_mean) {
   const double sine = std::max(0.0, std::sin(elevation_rad));

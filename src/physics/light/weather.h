@@ -104,9 +104,9 @@ struct Weather {
 // naming the time, if no interval holds it or nothing was measured in the interval that does.
 [[nodiscard]] Broadband weather_at(const Weather& weather, const std::optional<UtcTime>& time, const SunPosition& sun);
 
-// Returns the irradiance of a step of this length, with the sun of its middle as given: that of the interval of a file that holds all
-// of the step, or else the mean over all intervals that the step overlaps, each weighted by how long it does; what was not measured
-// is left out. Throws as weather_at does for the middle.
+// Returns the irradiance of a step of this length, with the sun of its middle as given: that of the interval of a file that
+// holds all of the step, or else the mean over all intervals that the step overlaps, each weighted by how long it does; what
+// was not measured is left out. Throws as weather_at does for the middle.
 [[nodiscard]] Broadband weather_of_step(const Weather& weather, const UtcTime& middle, double length_s, const SunPosition& sun);
 
 }  // namespace sunfleck

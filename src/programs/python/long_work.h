@@ -15,8 +15,8 @@ namespace sunfleck {
 // rethrown when it has ended; an exception from the work itself takes precedence.
 void do_long_work(const std::function<void(const Monitor&)>& work, const pybind11::object& progress);
 
-// Ends all long work, and waits for it: for `atexit`, since threads that return to an interpreter that is gone end the process. Work
-// that was to begin later raises SystemExit, which ends a thread in silence.
+// Ends all long work, and waits for it: for `atexit`, since threads that return to an interpreter that is gone end the process.
+// Work that was to begin later raises SystemExit, which ends a thread in silence.
 void end_long_work();
 
 }  // namespace sunfleck

@@ -70,7 +70,7 @@ GlbChunks split_glb(const MeshSource& source) {
   return chunks;
 }
 
-// Returns the library's message without the error name in front, [json.exception.parse_error.101], and without most of a long token.
+// Returns the library's message without the error name in front, [json.exception.parse_error.101], and most of a long token.
 std::string reason_of(const json::exception& problem) {
   constexpr std::size_t most = 200;
   std::string words = problem.what();

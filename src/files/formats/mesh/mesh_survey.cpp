@@ -58,6 +58,7 @@ class Surveyor {
     found_.triangles = mesh_.triangles.size();
     name_roles();
     measure_shape();
+    measure_plant();
     find_leaf_pieces();
     found_.frame = guess_frame(found_.shape, known_);
     count_organs();
@@ -83,7 +84,6 @@ class Surveyor {
   void measure_shape() {
     ShapeFigures& shape = found_.shape;
     shape.lo = shape.hi = corners_of(mesh_, 0)[0];
-    measure_plant();
     glm::dvec3 net{0.0};
     piece_vectors_.assign(pieces_.count, glm::dvec3(0.0));
     piece_areas_.assign(pieces_.count, 0.0);
@@ -110,21 +110,22 @@ class Surveyor {
 
   void measure_plant() {
     ShapeFigures& shape = found_.shape;
-    const auto is_plant = [&](std::size_t t) { return is_vegetation(named_role(t).value_or(Role::leaf)); };
-    std::vector<std::size_t> all(mesh_.triangles.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const auto end = std::stable_partition(all.begin(), all.end(), is_plant);
-    all.erase(end == all.begin() ? all.end() : end, all.end());
-    shape.plant_lo = shape.plant_hi = corners_of(mesh_, all.front())[0];
-    for (const std::size_t t : all) {
-      for (const glm::dvec3& corner : corners_of(mesh_, t)) {
+    bool any = false;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_vegetation(named_role(t).value_or(Role::leaf))) continue;
+      const Corners corners = corners_of(mesh_, t);
+      if (!std::exchange(any, true)) shape.plant_lo = shape.plant_hi = corners[0];
+      for (const glm::dvec3& corner : corners) {
         shape.plant_lo = glm::min(shape.plant_lo, corner);
         shape.plant_hi = glm::max(shape.plant_hi, corner);
       }
     }
+    if (any) return;
+    shape.plant_lo = shape.lo;
+    shape.plant_hi = shape.hi;
   }
 
-  // Leaves are the pieces that a name calls so; where none is, those without a name that are sheets, or else all without one.
+  // Pieces are leaves if a name says so. Where none does, the sheets among pieces without a known word are, or else all of these.
   void find_leaf_pieces() {
     std::vector<std::optional<Role>> roles(pieces_.count);  // of the first triangle with one
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
