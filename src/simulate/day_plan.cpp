@@ -202,6 +202,15 @@ void add_lights(DayPlan& plan, const Scene& scene) {
   throw Error(ErrorKind::input, *first_error);
 }
 
+// Returns the measured global irradiance of a step; 0 in a gap.
+double measured_w_m2(const Weather& weather, const DayStep& step) {
+  try {
+    return weather_of_step(weather, step.middle, step.length_s, step.sun).global_w_m2(step.sun);
+  } catch (const Error&) {  // only steps with sun need weather
+    return 0.0;
+  }
+}
+
 }  // namespace
 
 std::string clock_text(int minutes) {
@@ -222,6 +231,21 @@ DayPlan plan_day(const DayRequest& request, const Scene& scene) {
   }
   add_lights(plan, scene);
   return plan;
+}
+
+std::vector<std::string> plan_warnings(const DayPlan& plan, const Scene& scene) {
+  constexpr double worth_a_warning = 0.005;
+  const std::optional<Weather>& weather = scene.light.weather;
+  if (!weather || weather->source != Weather::Source::intervals) return {};
+  double used = 0.0, left_out = 0.0;  // J m-2
+  for (const DayStep& step : plan.course.steps) {
+    (step.night() ? left_out : used) += step.length_s * measured_w_m2(*weather, step);
+  }
+  if (!(left_out > worth_a_warning * (used + left_out))) return {};
+  return {fmt::format(
+      "{}: {:.2g} % of its light falls into steps in whose middle the sun is below the horizon, and is left out; shorter "
+      "steps lose less",
+      weather->name, 100.0 * left_out / (used + left_out))};
 }
 
 }  // namespace sunfleck

@@ -6,6 +6,7 @@
 #include "files/scene/scene_reader.h"
 #include "simulate/requests.h"
 
+#include <string>
 #include <vector>
 
 namespace sunfleck {
@@ -31,6 +32,10 @@ struct DayPlan {
 // outwards to whole steps. Throws Error (input) for times and dates that do not exist or are out of order, too many steps, a
 // scene whose light has no course over the day, and weather that does not cover a step.
 [[nodiscard]] DayPlan plan_day(const DayRequest& request, const Scene& scene);
+
+// Returns a warning, or none, about measured light that is left out because it came while the sun was below the horizon at the
+// middle of a step, if that is more than half a percent of it.
+[[nodiscard]] std::vector<std::string> plan_warnings(const DayPlan& plan, const Scene& scene);
 
 // Returns HH:MM.
 [[nodiscard]] std::string clock_text(int minutes);

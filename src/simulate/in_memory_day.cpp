@@ -60,6 +60,7 @@ InMemoryDay simulate_in_memory(Scene scene, const DayRequest& request, const Wor
   Stopwatch total;
   const SolveSettings settings = day_solve_settings(work, scene, device.threads);
   DayPlan plan = plan_day(request, scene);
+  for (std::string& warning : plan_warnings(plan, scene)) scene.warnings.push_back(std::move(warning));
   plan_blocks(request, settings, scene.model, plan);
   check_grid(work, scene);
   Simulation simulation(std::move(scene), device);

@@ -230,6 +230,7 @@ int run_day(const DayOptions& asked) {
 
   Scene scene = load_scene_with_warnings(run, ScenePurpose::day);
   DayPlan plan = plan_day(options, scene);
+  for (const std::string& warning : plan_warnings(plan, scene)) warn(warning);
   const SolveSettings settings = settings_of(options, scene, plan);
   if (run.resume && !options.steps_together) options.steps_together = noted_steps_together(folder);
   plan_blocks(options, settings, scene.model, plan);

@@ -67,6 +67,24 @@ TEST_F(DayPlanTest, CountsTheStepsWithoutWeather) {
   EXPECT_EQ(refusal_of([&] { static_cast<void>(plan_day(options, scene)); }).find("such steps"), std::string::npos);
 }
 
+TEST_F(DayPlanTest, TellsOfLightThatNoStepHas) {
+  std::string csv = "time,ghi\n";
+  for (int hour = 2; hour < 22; ++hour)
+    csv += fmt::format("2002-08-08T{:02}:00:00+00:00,{}\n", hour, hour < 6 || hour > 17 ? 20 : 400);
+  write(folder_ / "station.csv", csv);
+  const Scene scene = read(
+      "[plot]\nsize = [1, 1]\n[sun]\nlongitude = 0\nlatitude = 40\ntime = 2002-08-08T10:10:00Z\n[weather]\nfile = "
+      "\"station.csv\"\n[sky]\nmodel = \"uniform\"\n[[band]]\nname = \"PAR\"\n",
+      {.purpose = ScenePurpose::day});
+  // The sun rises at 05:05 and sets at 19:08 UTC: three hours before and three after have 20 W m-2.
+  const std::vector<std::string> warnings = plan_warnings(plan_day(hours("02:00", "22:00", 60), scene), scene);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("station.csv: 2.4 % of its light"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(plan_warnings(plan_day(hours("06:00", "18:00", 60), scene), scene).empty());
+  const Scene clear = scene_at("2002-08-08T10:10:00Z");
+  EXPECT_TRUE(plan_warnings(plan_day(hours("02:00", "22:00", 60), clear), clear).empty());
+}
+
 TEST_F(DayPlanTest, DatesFollowTheCalendar) {
   DayRequest options = hours("11:00", "12:00", 10);
   options.date = "2004-02-28";
