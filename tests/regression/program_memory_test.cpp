@@ -2,10 +2,10 @@
 #include "regression/program.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace sunfleck::regression {
 namespace {
@@ -53,13 +53,19 @@ optics = "leaf"
 )");
   }
 
+  // Returns the peaks of some runs in ascending order.
+  [[nodiscard]] std::vector<double> peaks_mib(std::size_t runs, const std::filesystem::path& scene,
+                                              const Arguments& more) const {
+    std::vector<double> peaks(runs);
+    for (double& peak_mib : peaks) peak_mib = simulate(scene, more).peak_mib;
+    std::sort(peaks.begin(), peaks.end());
+    return peaks;
+  }
+
   // Returns the median peak of three runs: on a busy machine a thread may come too late to need memory of its own, or replicates
   // reach their peaks together that seldom do.
   [[nodiscard]] double usual_peak_mib(const std::filesystem::path& scene, const Arguments& more) const {
-    std::array<double, 3> peaks_mib{};
-    for (double& peak_mib : peaks_mib) peak_mib = simulate(scene, more).peak_mib;
-    std::sort(peaks_mib.begin(), peaks_mib.end());
-    return peaks_mib[1];
+    return peaks_mib(3, scene, more)[1];
   }
 
   // Eight large replicates: their number is fixed, so that the test takes a few seconds.
@@ -111,13 +117,14 @@ TEST_F(Memory, IsForetoldByInfo) {
   }
 }
 
-// Where nothing is scattered, two of the six usual pictures are drawn.
+// Where nothing is scattered, two of the six usual pictures are drawn. A thread that comes late saves a seventh of so little memory,
+// and nothing takes more than usual, so that the highest of some peaks is the one of a run on a quiet machine.
 TEST_F(Memory, OfABlackSceneIsForetoldWithItsPictures) {
   const Arguments work{"--device", "cpu", "--threads", "2"};
   const Outcome info = run(Arguments{"info", scene_file("two_squares.toml"), "--json"} + work);
   ASSERT_EQ(info.status, 0) << info.err;
   const double forecast_mib = json::parse(info.out)["memory_bytes"].get<double>() / 1048576.0;
-  EXPECT_NEAR(forecast_mib / usual_peak_mib(scene_file("two_squares.toml"), work), 1.0, 0.15)
+  EXPECT_NEAR(forecast_mib / peaks_mib(5, scene_file("two_squares.toml"), work).back(), 1.0, 0.15)
       << forecast_mib << " MiB forecast";
 }
 
