@@ -243,7 +243,7 @@ std::vector<std::string> plan_warnings(const DayPlan& plan, const Scene& scene) 
   }
   if (!(left_out > worth_a_warning * (used + left_out))) return {};
   return {fmt::format(
-      "{}: {:.2g} % of its light falls into steps in whose middle the sun is below the horizon, and is left out; shorter "
+      "{}: {:.2g} % of its light falls in steps at whose middle the sun is below the horizon, and is left out; shorter "
       "steps lose less",
       weather->name, 100.0 * left_out / (used + left_out))};
 }
