@@ -1,6 +1,7 @@
 #pragma once
 // A user's requests for a simulation as plain values: the same for the command line, the window and Python.
 
+#include "base/text.h"
 #include "pictures/charts/picture.h"
 
 #include <algorithm>
@@ -39,6 +40,12 @@ struct SceneRequest {
   bool allow_outside = false;  // the scene may name files outside its folder
   bool mesh_alone = false;     // a mesh without CARIBU's files gets the scene that mesh_scene.h writes, instead of an error
 };
+
+// Returns a kind of device in lower case, and any other word, which is a number or part of a name, as it is.
+[[nodiscard]] inline std::string device_word(const std::string& word) {
+  const std::string lower = lower_case(word);
+  return holds({"auto", "gpu", "lavapipe", "cpu"}, lower) ? lower : word;
+}
 
 struct DeviceRequest {
   std::string device = "auto";  // auto | gpu | lavapipe | cpu | INDEX | NAME

@@ -106,13 +106,6 @@ void add_organs(Canopy& canopy, const PlacedMesh& part, PlantNumbers& plants) {
   }
 }
 
-// Returns where single precision should count a mesh from.
-glm::dvec3 mesh_origin_m(const Mesh& mesh) {
-  DoubleBox box;
-  for (const glm::dvec3& vertex_m : mesh.vertices) box.add(vertex_m);
-  return {local_origin_m(box, 0), local_origin_m(box, 1), local_origin_m(box, 2)};
-}
-
 class CornerPlacer {
  public:
   CornerPlacer(Canopy& canopy, const Plot& plot) : canopy_(canopy), wrapper_(plot), periodic_(plot.periodic) {
@@ -167,6 +160,12 @@ std::vector<Copy> all_copies(const ElementCorners& corners) {
 }
 
 }  // namespace
+
+glm::dvec3 mesh_origin_m(const Mesh& mesh) {
+  DoubleBox box;
+  for (const glm::dvec3& vertex_m : mesh.vertices) box.add(vertex_m);
+  return {local_origin_m(box, 0), local_origin_m(box, 1), local_origin_m(box, 2)};
+}
 
 Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot) {
   Canopy canopy;

@@ -48,6 +48,10 @@ struct Canopy {
 // million triangles, for meshes of at least 64 triangles that stand at least 8 times.
 [[nodiscard]] Canopy assemble_canopy(std::span<const PlacedMesh> parts, const Plot& plot);
 
+// Returns where single precision should count a mesh from, in the mesh's own frame: 0 on each axis on which it does not lie
+// several times its own size from zero.
+[[nodiscard]] glm::dvec3 mesh_origin_m(const Mesh& mesh);
+
 // Returns the bounds of all elements in the local frame; lo = hi = 0 without elements.
 [[nodiscard]] Box bounds(const Canopy& canopy);
 

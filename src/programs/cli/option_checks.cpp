@@ -1,6 +1,7 @@
 #include "programs/cli/option_checks.h"
 
 #include "base/suggestions.h"
+#include "simulate/requests.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -104,9 +105,7 @@ CLI::Validator without_blanks() {
 
 CLI::Validator device_kind() {
   return {[](std::string& text) {
-            const std::string lower = CLI::detail::to_lower(text);
-            for (const char* kind : {"auto", "gpu", "lavapipe", "cpu"})
-              if (lower == kind) text = lower;
+            text = device_word(text);
             return std::string();
           },
           ""};

@@ -166,7 +166,7 @@ std::unique_ptr<Day> day_of(const std::filesystem::path& file, const std::option
   const auto work = [&](const Monitor& monitor) {
     Scene scene = text ? read_scene(SceneText{file, *text, std::move(meshes)}, access) : read_scene(file, access);
     limits.triangle_light = triangles ? *triangles : keeps_triangles(request, scene);
-    day = simulate_in_memory(std::move(scene), request, limits, {device, 0, threads}, monitor);
+    day = simulate_in_memory(std::move(scene), request, limits, {device_word(device), 0, threads}, monitor);
   };
   do_long_work(work, progress);
   return std::make_unique<Day>(std::move(*day));

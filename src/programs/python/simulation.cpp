@@ -30,7 +30,7 @@ class PythonSimulation {
       : access_{.allow_outside = allow_outside} {
     const py::gil_scoped_release release;
     Scene scene = text ? read_scene(SceneText{file, *text, std::move(meshes)}, access_) : read_scene(file, access_);
-    simulation_.emplace(std::move(scene), DeviceRequest{device, 0, threads});
+    simulation_.emplace(std::move(scene), DeviceRequest{device_word(device), 0, threads});
   }
 
   void relight(const std::filesystem::path& file, const std::string& text) {

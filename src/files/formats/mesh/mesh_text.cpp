@@ -36,32 +36,36 @@ void check_arrays(const Mesh& mesh) {
 class Labels {
  public:
   explicit Labels(const Mesh& mesh) : mesh_(mesh) {
+    for (const Organ& organ : mesh.organs) organ_roles_.push_back(role_from_name(organ.name));
+    for (const std::string& name : mesh.optics_names) optics_roles_.push_back(role_from_name(name));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Organ organ = organ_of(t);
-      if (role_from_name(organ.name) == Role::leaf) plants_with_leaves_.insert(organ.plant);
+      if (organ.role == Role::leaf) plants_with_leaves_.insert(organ.plant);
     }
   }
 
-  // Returns the label of a triangle, which has this number in its organ.
+  // Returns the label of a triangle, which has this number in its organ. As in a run, what no name describes is a leaf, or a stem
+  // if its plant has leaves.
   [[nodiscard]] std::string of(std::size_t triangle, std::size_t number_in_organ) const {
     const std::uint64_t label = mesh_.labels.empty() ? no_label : mesh_.labels[triangle];
     if (label != no_label) return caribu_label_as_read(mesh_.organs[mesh_.organ_of[triangle]], label);
     Organ organ = organ_of(triangle);
-    if (!organ.role && !role_from_name(organ.name))
-      organ.role = plants_with_leaves_.contains(organ.plant) ? Role::stem : Role::leaf;
+    if (!organ.role) organ.role = plants_with_leaves_.contains(organ.plant) ? Role::stem : Role::leaf;
     return caribu_label(organ, number_in_organ);
   }
 
  private:
-  // A label states the optics of a surface: an ear with optics `leaf2` is a leaf of species 2. Of a surface whose optics name no
-  // part of a plant, such as `green`, it states the organ.
+  // Returns what the label states, with the role that its name suggests: the optics of a surface, so that an ear with optics
+  // `leaf2` is a leaf of species 2, or the organ of a surface whose optics name no part of a plant, such as `green`.
   [[nodiscard]] Organ organ_of(std::size_t triangle) const {
-    const Organ& organ = mesh_.organs[mesh_.organ_of[triangle]];
-    const std::string& optics = mesh_.optics_names[mesh_.optics_of[triangle]];
-    return {organ.plant, role_from_name(optics) ? optics : organ.name, organ.rank};
+    const std::uint32_t number = mesh_.organ_of[triangle], optics = mesh_.optics_of[triangle];
+    const Organ& organ = mesh_.organs[number];
+    if (optics_roles_[optics]) return {organ.plant, mesh_.optics_names[optics], organ.rank, optics_roles_[optics]};
+    return {organ.plant, organ.name, organ.rank, organ_roles_[number]};
   }
 
   const Mesh& mesh_;
+  std::vector<std::optional<Role>> organ_roles_, optics_roles_;  // [organ] and [optics], as far as their names suggest one
   std::set<std::uint32_t> plants_with_leaves_;
 };
 

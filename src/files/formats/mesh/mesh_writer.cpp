@@ -8,12 +8,11 @@
 #include "files/formats/mesh/mesh_text.h"
 #include "files/formats/mesh/organ_name.h"
 #include "physics/canopy/axes.h"
+#include "physics/canopy/canopy.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <limits>
@@ -32,7 +31,10 @@ using Groups = std::map<std::uint32_t, std::vector<std::size_t>>;
 class GltfWriter {
  public:
   GltfWriter(const Mesh& mesh, Axes axes)
-      : mesh_(mesh), axes_(axes), origin_m_(origin_m()), new_number_(mesh.vertices.size(), unused) {
+      : mesh_(mesh),
+        axes_(axes),
+        origin_m_(glm::round(y_up_direction(axes, mesh_origin_m(mesh)))),
+        new_number_(mesh.vertices.size(), unused) {
     model_.asset.version = "2.0";
     model_.asset.generator = "sunfleck";
     model_.buffers.emplace_back();
@@ -61,24 +63,6 @@ class GltfWriter {
 
  private:
   static constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
-
-  // Returns where positions are counted from. A mesh that lies several times its own size from zero would lose digits in single
-  // precision, so each node moves it there.
-  [[nodiscard]] glm::dvec3 origin_m() const {
-    if (mesh_.vertices.empty()) return glm::dvec3(0.0);
-    glm::dvec3 lo = y_up_direction(axes_, mesh_.vertices.front()), hi = lo;
-    for (const glm::dvec3& vertex_m : mesh_.vertices) {
-      lo = glm::min(lo, y_up_direction(axes_, vertex_m));
-      hi = glm::max(hi, y_up_direction(axes_, vertex_m));
-    }
-    const glm::dvec3 size_m = hi - lo;
-    const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
-    glm::dvec3 origin_m = glm::round(0.5 * (lo + hi));
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(origin_m[axis]) <= 4.0 * largest_m) origin_m[axis] = 0.0;
-    }
-    return origin_m;
-  }
 
   void add_organ(const Organ& organ, const Groups& groups) {
     std::vector<std::uint32_t> vertices;  // vertices of the mesh, in the order of first use
@@ -133,7 +117,7 @@ class GltfWriter {
 
   const Mesh& mesh_;
   const Axes axes_;
-  const glm::dvec3 origin_m_;
+  const glm::dvec3 origin_m_;              // of the positions, which are in single precision; each node moves them there
   std::vector<std::uint32_t> new_number_;  // [mesh vertex], number within the current organ
   tinygltf::Model model_;
 };

@@ -16,7 +16,7 @@ from . import _core
 from ._columns import crossed, data_frame, named, optional, with_text_arrays
 from ._errors import refuse
 from ._kept import KeptDay
-from ._options import device_name, flag, text, whole, work_options
+from ._options import flag, text, whole, work_options
 from ._progress import Progress, reporting
 from ._scene import Scene, SceneSource
 from ._simulation import of_dict, without_line_numbers
@@ -308,7 +308,7 @@ def day(
     when = [text(str(value or ""), name) for name, value in given_times.items()]
     most = None if together is None else whole(together, "together", 1, 96)
     request = _core.DayRequest(*when, whole(step, "step", 1, 24 * 60), most)
-    machine = (device_name(device), whole(threads, "threads", 0, 4096))
+    machine = (text(str(device), "device"), whole(threads, "threads", 0, 4096))
     access = flag(allow_outside, "allow_outside")
     source = SceneSource(scene, folder)
     kept = None if triangles is None else bool(triangles)

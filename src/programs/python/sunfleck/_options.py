@@ -27,12 +27,6 @@ def text(value: Any, name: str) -> str:
     return value
 
 
-def device_name(value: Any) -> str:
-    """Returns the device as the compiled part takes it; kinds of devices may be written in any case."""
-    name = text(str(value), "device")
-    return name.lower() if name.lower() in ("auto", "gpu", "lavapipe", "cpu") else name
-
-
 def texts(value: Union[str, Iterable[str]], name: str) -> list[str]:
     """Returns the texts in a list, given one or several."""
     if not isinstance(value, (str, Iterable)):

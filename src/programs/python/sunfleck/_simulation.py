@@ -11,7 +11,7 @@ from typing import Any, Optional, Union
 
 from . import _core
 from ._errors import InputError, in_python, refuse
-from ._options import device_name, flag, whole, work_options
+from ._options import flag, text, whole, work_options
 from ._progress import Progress, check_progress, reporting
 from ._result import Result
 from ._scene import Scene, SceneSource, refuse_unknown_optics
@@ -85,7 +85,7 @@ class Simulation:
     ) -> None:
         self._source = SceneSource(scene, folder)
         self._light: dict[str, Any] = {}
-        machine = (device_name(device), whole(threads, "threads", 0, 4096))
+        machine = (text(str(device), "device"), whole(threads, "threads", 0, 4096))
         access = flag(allow_outside, "allow_outside")
         with self._tidied():
             self._core = _core.Simulation(os.fspath(self._source.file), self._source.text, self._source.meshes, access, *machine)
