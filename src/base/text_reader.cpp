@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <clocale>
 #include <cmath>
+#include <string>
 #include <system_error>
 
 namespace sunfleck {
@@ -87,6 +89,17 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells, ch
   }
 }
 
+char separator_of(std::string_view column_names) {
+  for (const char separator : {';', '\t'}) {
+    if (column_names.find(separator) != column_names.npos) return separator;
+  }
+  return ',';
+}
+
+std::string_view name_of_separator(char separator) {
+  return separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "commas";
+}
+
 std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   double value = 0.0;
@@ -95,6 +108,13 @@ std::optional<double> parse_number(std::string_view word) {
   if (code == std::errc::result_out_of_range) value = limit_of(std::string(word));
   if (!std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<double> parse_number(std::string_view cell, char separator) {
+  if (separator == ',' || cell.find(',') == cell.npos) return parse_number(cell);
+  std::string with_point(cell);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return parse_number(with_point);
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view word) {

@@ -43,8 +43,16 @@ class LineReader {
 // quote that nothing closes is a character like any other. The views point into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
 
+// Returns what separates the cells of a table: semicolons or tabs if its line of column names has any, or else commas.
+[[nodiscard]] char separator_of(std::string_view column_names);
+// Returns its name in the plural, for messages.
+[[nodiscard]] std::string_view name_of_separator(char separator);
+
 // Parse a finite number or an integer; return nothing unless the whole word is one.
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
+
+// Parses the number in a cell of a table. Unless commas separate its cells, a comma may be the decimal mark.
+[[nodiscard]] std::optional<double> parse_number(std::string_view cell, char separator);
 
 }  // namespace sunfleck

@@ -1,5 +1,6 @@
 #include "files/scene/scene_weather.h"
 
+#include "files/formats/weather/station_reader.h"
 #include "files/formats/weather/weather_reader.h"
 #include "files/scene/scene_files.h"
 #include "files/scene/weather_plausibility.h"
@@ -55,13 +56,22 @@ void warn_of_other_year(const TomlTable& table, const WeatherFile& file, const S
                                  table.place("file"), local.month, year, local.year));
 }
 
+// Returns the offset of a file's times in minutes, if one is given.
+std::optional<int> read_utc_offset(const TomlTable& table) {
+  const std::optional<std::string> text = table.text("utc_offset");
+  if (!text) return std::nullopt;
+  const std::optional<int> minutes = parse_utc_offset(*text);
+  if (!minutes) table.refuse("utc_offset", "is not an offset from UTC", "write it as \"+08:00\"");
+  return minutes;
+}
+
 void read_weather_file(const TomlTable& table, const std::filesystem::path& scene_file, const SceneAccess& access,
                        const SunInput& sun, WeatherInput& input, std::vector<std::string>& warnings) {
   refuse_with(table, {"ghi", "dni", "dhi", "clear_sky"}, "a file is also given, and only one of them can define the weather");
   if (!sun.moment) table.refuse("file", "[sun] has no time to look up in it", "give time, latitude and longitude in [sun]");
   const std::filesystem::path path = find_scene_file(table, scene_file, access, "name a .csv or .epw file");
   if (!is_weather_file(path)) table.refuse("file", "its format is unknown", "use .csv or .epw");
-  WeatherFile file = read_weather(path, access.files);
+  WeatherFile file = read_weather(path, access.files, read_utc_offset(table));
   warn_of_other_place(table, file, *sun.moment, warnings);
   warn_of_other_year(table, file, *sun.moment, warnings);
   input.weather = std::move(file.weather);
@@ -77,14 +87,17 @@ void read_clear_sky(const TomlTable& table, WeatherInput& input) {
 void read_moment(const TomlTable& table, WeatherInput& input) {
   WeatherInterval& moment = input.weather.moment;
   if (table.has("ghi")) {
-    refuse_with(table, {"dni", "dhi"}, "ghi is also given, but follows from the parts");
+    refuse_with(table, {"dni"}, "ghi is also given, but follows from the parts");
     moment.ghi_w_m2 = *table.number("ghi", broadband);
+    if (!table.has("dhi")) return;
+    refuse_with(table, {"split"}, "ghi and dhi tell the parts, so there is nothing to split");
+    moment.dhi_w_m2 = *table.number("dhi", broadband);
     return;
   }
   if (!table.has("dni") && !table.has("dhi")) {
-    table.refuse_table("it has no irradiance", "add ghi, or dni and dhi, or file, or clear_sky = \"ineichen\"");
+    table.refuse_table("it has no irradiance", "add ghi, or dni or ghi with dhi, or file, or clear_sky = \"ineichen\"");
   }
-  table.require("dni", "dni, the direct normal irradiance in W m-2, or give only ghi");
+  table.require("dni", "dni, the direct normal irradiance in W m-2, or ghi");
   table.require("dhi", "dhi, the diffuse horizontal irradiance in W m-2, or give only ghi");
   refuse_with(table, {"split"}, "dni and dhi already are the parts, so there is nothing to split");
   moment.dni_w_m2 = *table.number("dni", broadband);
@@ -92,7 +105,7 @@ void read_moment(const TomlTable& table, WeatherInput& input) {
 }
 
 void warn_of_unknown_day(const WeatherInput& input, const SunInput& sun, std::vector<std::string>& warnings) {
-  if (sun.moment || (input.weather.source == Weather::Source::moment && input.weather.moment.has_parts())) return;
+  if (sun.moment || (input.weather.source == Weather::Source::moment && input.weather.moment.dhi_w_m2 >= 0.0)) return;
   warnings.push_back(
       fmt::format("{}: without a time in [sun] the day of the year is unknown, so the mean distance of the sun is used",
                   input.table.place()));
@@ -120,12 +133,13 @@ std::optional<WeatherInput> read_weather_table(const TomlTable& root, const std:
                                                std::vector<std::string>& warnings) {
   const auto table = root.table("weather");
   if (!table) return std::nullopt;
-  table->allow({"ghi", "dni", "dhi", "file", "split", "clear_sky", "linke_turbidity", "altitude"});
+  table->allow({"ghi", "dni", "dhi", "file", "utc_offset", "split", "clear_sky", "linke_turbidity", "altitude"});
   if (!sun) table->refuse_table("its light needs a [sun]", "add [sun]");
   WeatherInput input{.weather = {}, .table = *table};
   if (!table->has("clear_sky")) {
     refuse_with(*table, {"linke_turbidity", "altitude"}, "it is only for clear_sky = \"ineichen\"");
   }
+  if (!table->has("file")) refuse_with(*table, {"utc_offset"}, "it is only for the times of a file");
   if (table->has("file")) {
     read_weather_file(*table, scene_file, access, *sun, input, warnings);
   } else if (table->has("clear_sky")) {

@@ -135,7 +135,9 @@ std::optional<std::string> excess(const WeatherInterval& interval, double elevat
   if (!interval.has_parts()) {
     auto found = over("ghi", interval.ghi_w_m2, is_long_mean ? outside * sine + 50.0 : 1.5 * level + 100.0);
     if (found && is_long_mean) *found += "; PAR in umol m-2 s-1 is about twice as many as W m-2 of all solar light";
-    return found;
+    if (found || interval.dhi_w_m2 <= 1.2 * std::max(0.0, interval.ghi_w_m2) + 20.0) return found;
+    return fmt::format("dhi = {:.6g} W m-2 is more than ghi = {:.6g}; diffuse light is part of global irradiance",
+                       interval.dhi_w_m2, interval.ghi_w_m2);
   }
   if (auto found = over("dni", interval.dni_w_m2, outside)) return found;
   return over("dhi", interval.dhi_w_m2, 0.95 * level + 50.0);

@@ -30,9 +30,16 @@ double clearness(double global_w_m2, double solar_constant, const SunPosition& s
   return global_w_m2 / (extraterrestrial_normal_w_m2(solar_constant, day) * std::sin(sun.elevation_rad));
 }
 
-Broadband split(double global_w_m2, double direct_horizontal_w_m2, const SunPosition& sun) {
+Broadband with_direct(double global_w_m2, double direct_horizontal_w_m2, const SunPosition& sun) {
   const double sine = std::sin(sun.elevation_rad);
   return {direct_horizontal_w_m2 / sine, std::max(0.0, global_w_m2 - direct_horizontal_w_m2)};
+}
+
+// Returns the same with no more direct irradiance than there is outside the atmosphere, and never less than none.
+Broadband with_possible_direct(double global_w_m2, double direct_horizontal_w_m2, double outside_normal_w_m2,
+                               const SunPosition& sun) {
+  const double most_w_m2 = outside_normal_w_m2 * std::sin(sun.elevation_rad);
+  return with_direct(global_w_m2, std::clamp(direct_horizontal_w_m2, 0.0, most_w_m2), sun);
 }
 
 // Returns the time in the year that represents every year. Where that has no 29 February, the day before stands for it.
@@ -73,8 +80,9 @@ std::vector<WeatherInterval>::const_iterator first_after(const Weather& weather,
 std::optional<Broadband> measured_in(const WeatherInterval& interval, SplitRule rule, const SunPosition& sun,
                                      std::optional<int> day) {
   if (interval.has_parts()) return Broadband{interval.dni_w_m2, interval.dhi_w_m2};
-  if (interval.ghi_w_m2 >= 0.0) return split_global(interval.ghi_w_m2, rule, sun, day);
-  return std::nullopt;
+  if (interval.ghi_w_m2 < 0.0) return std::nullopt;
+  if (interval.dhi_w_m2 >= 0.0) return without_diffuse(interval.ghi_w_m2, interval.dhi_w_m2, sun, day);
+  return split_global(interval.ghi_w_m2, rule, sun, day);
 }
 
 }  // namespace
@@ -124,8 +132,13 @@ Broadband split_global(double global_w_m2, SplitRule rule, const SunPosition& su
   const bool spitters = rule == SplitRule::spitters;
   const double share = spitters ? spitters_diffuse_share(global_w_m2, sun, day) : erbs_diffuse_share(global_w_m2, sun, day);
   const double outside_w_m2 = extraterrestrial_normal_w_m2(spitters ? spitters_solar_constant_w_m2 : solar_constant_w_m2, day);
-  const double most_w_m2 = outside_w_m2 * std::sin(sun.elevation_rad);
-  return split(global_w_m2, std::clamp((1.0 - share) * global_w_m2, 0.0, most_w_m2), sun);
+  return with_possible_direct(global_w_m2, (1.0 - share) * global_w_m2, outside_w_m2, sun);
+}
+
+Broadband without_diffuse(double global_w_m2, double diffuse_w_m2, const SunPosition& sun, std::optional<int> day) {
+  if (sun.elevation_rad <= 0.0) return {0.0, global_w_m2};
+  const double outside_w_m2 = extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
+  return with_possible_direct(global_w_m2, global_w_m2 - diffuse_w_m2, outside_w_m2, sun);
 }
 
 Broadband ineichen_perez(const ClearAir& air, double apparent_zenith_rad, double air_mass, double outside_w_m2) {
@@ -163,7 +176,7 @@ Broadband clear_sky(const ClearAir& air, const SunPosition& sun, std::optional<i
   const Broadband seen =
       ineichen_perez(air, pi / 2.0 - apparent_rad, air_mass, extraterrestrial_normal_w_m2(solar_constant_w_m2, day));
   const double global_w_m2 = seen.global_w_m2({apparent_rad, sun.azimuth_rad});
-  return split(global_w_m2, std::min(global_w_m2, seen.direct_horizontal_w_m2(sun)), sun);
+  return with_direct(global_w_m2, std::min(global_w_m2, seen.direct_horizontal_w_m2(sun)), sun);
 }
 
 const WeatherInterval& interval_at(const Weather& weather, const UtcTime& time) {

@@ -42,6 +42,11 @@ enum class SplitRule { spitters, erbs };
 // the excess counts as diffuse.
 [[nodiscard]] Broadband split_global(double global_w_m2, SplitRule rule, const SunPosition& sun, std::optional<int> day);
 
+// Returns the parts where the diffuse irradiance was measured beside the global one: the beam brings the rest, but no more than
+// outside the atmosphere (1367 W m-2 on a plane that faces the sun); the excess counts as diffuse. The parts are never negative.
+[[nodiscard]] Broadband without_diffuse(double global_w_m2, double diffuse_w_m2, const SunPosition& sun,
+                                        std::optional<int> day);
+
 // Clear air. Linke turbidity at air mass 2, at least 1.
 struct ClearAir {
   double linke_turbidity = 3.0;
@@ -73,7 +78,7 @@ struct WeatherInterval {
   UtcTime start;
   double length_s = 3600.0;
   double ghi_w_m2 = -1.0;  // negative: not measured
-  double dni_w_m2 = -1.0;  // dni and dhi come together and take precedence over ghi
+  double dni_w_m2 = -1.0;  // with dhi it takes precedence over ghi
   double dhi_w_m2 = -1.0;
   std::size_t line = 0;  // in the file, for messages
 

@@ -29,15 +29,17 @@ void take_header(NumberTable& table, std::size_t line, const std::vector<std::st
   }
 }
 
-void take_row(NumberTable& table, std::size_t line, const std::vector<std::string_view>& cells) {
+void take_row(NumberTable& table, std::size_t line, const std::vector<std::string_view>& cells, char separator) {
   if (cells.size() != table.columns.size()) {
     refuse_line(table.file, line, fmt::format("{} cells", cells.size()),
                 fmt::format("the header in line {} has {} columns", table.header_line, table.columns.size()),
-                "give one cell per column, separated by commas, with a decimal point in numbers");
+                fmt::format("give one cell per column, separated by {}{}", name_of_separator(separator),
+                            separator == ',' ? ", with a decimal point in numbers" : ""));
   }
   NumberTable::Row row{line, {}};
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    const std::optional<double> value = cells[c].empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cells[c]);
+    const std::optional<double> value =
+        cells[c].empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(cells[c], separator);
     if (!value) {
       refuse_line(table.file, line, fmt::format("{} = {}", table.columns[c], in_quotes(cells[c])), "not a finite number",
                   "correct the number");
@@ -69,6 +71,7 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
   table.file = file;
   const std::string bytes = read_source(file, files, most_bytes);
   std::vector<std::string_view> cells;
+  char separator = ',';
   for (LineReader lines(without_mark(bytes)); lines.next();) {
     const std::string_view line = trimmed(lines.line());
     if (line.empty()) continue;
@@ -76,12 +79,13 @@ NumberTable read_number_table(const std::filesystem::path& file, const HeaderChe
       table.comments.emplace_back(trimmed(line.substr(1)));
       continue;
     }
-    split_cells(line, cells);
+    if (table.columns.empty()) separator = separator_of(line);
+    split_cells(line, cells, separator);
     if (table.columns.empty()) {
       take_header(table, lines.number(), cells);
       if (check_header) check_header(table);
     } else {
-      take_row(table, lines.number(), cells);
+      take_row(table, lines.number(), cells, separator);
     }
   }
   if (table.columns.empty())

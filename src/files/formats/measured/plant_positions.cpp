@@ -28,9 +28,6 @@ void check_position_columns(const NumberTable& table, HeightColumn height) {
       return std::find(std::begin(known_columns), std::end(known_columns), name) != std::end(known_columns);
     };
     if (is_known(column)) continue;
-    if (column.find_first_of(";\t") != column.npos)
-      refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)),
-                  "commas separate the columns of a table", "put commas between the cells, and points into the numbers");
     if (parse_number(column))
       refuse_line(table.file, table.header_line, fmt::format("column {}", in_quotes(column)),
                   "the first line must name the columns", "begin with a line such as plant,x,z,heading,scale");

@@ -20,7 +20,7 @@ struct PlantPosition {
   double scale = 1.0;                      // > 0
 };
 
-// Reads a CSV with a line of column names: x and z (or y, if z is the height), and optionally plant, the height (0
+// Reads a table (number_table.h) with the columns x and z (or y, if z is the height), and optionally plant, the height (0
 // without it), heading and scale, in any order. Adds the file to `files` if that is given. Throws Error (input), one line
 // `FILE:LINE: ...`, for unknown, missing or double columns, empty cells, numbers out of range and plants that occur twice.
 [[nodiscard]] std::vector<PlantPosition> read_plant_positions(const std::filesystem::path& file,

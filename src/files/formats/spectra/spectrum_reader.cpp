@@ -38,13 +38,6 @@ Cells cells_of(std::string_view line, char separator) {
   return cells;
 }
 
-std::optional<double> number_in(std::string_view cell, char separator) {
-  if (separator == ',' || cell.find(',') == cell.npos) return parse_number(cell);
-  std::string with_point(cell);
-  std::replace(with_point.begin(), with_point.end(), ',', '.');
-  return parse_number(with_point);
-}
-
 // Returns what separates the columns of a line. A comma is the decimal mark if words between blanks are numbers with it.
 char separator_of(std::string_view line) {
   for (const char separator : {';', '\t'}) {
@@ -52,7 +45,7 @@ char separator_of(std::string_view line) {
   }
   if (line.find(',') == line.npos) return ' ';
   const Cells words = cells_of(line, ' ');
-  const auto is_number = [](std::string_view word) { return number_in(word, ' ').has_value(); };
+  const auto is_number = [](std::string_view word) { return parse_number(word, ' ').has_value(); };
   return words.size() > 1 && std::all_of(words.begin(), words.end(), is_number) ? ' ' : ',';
 }
 
@@ -60,7 +53,7 @@ char separator_of(std::string_view line) {
 bool begins_with_number(std::string_view line) {
   const char separator = separator_of(line);
   const Cells cells = cells_of(line, separator);
-  return cells.size() > 1 && number_in(cells.front(), separator).has_value();
+  return cells.size() > 1 && parse_number(cells.front(), separator).has_value();
 }
 
 struct Row {
@@ -96,7 +89,7 @@ void take_row(SpectralTable& table, std::string_view line, std::size_t number, s
   }
   Row row{number, {}};
   for (const std::string_view cell : cells) {
-    const auto value = number_in(cell, separator);
+    const auto value = parse_number(cell, separator);
     if (!value) refuse_line(table.file, number, in_quotes(cell), "not a finite number", "correct the number");
     row.cells.push_back(*value);
   }

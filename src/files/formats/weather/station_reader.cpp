@@ -29,9 +29,47 @@ struct Columns {
   std::size_t time = not_there, ghi = not_there, dni = not_there, dhi = not_there;
 };
 
+// Removes exactly `count` digits from the front of `rest` and returns their value; nothing if there are other characters.
+std::optional<int> take_digits(std::string_view& rest, std::size_t count) {
+  if (rest.size() < count) return std::nullopt;
+  int value = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rest[i] < '0' || rest[i] > '9') return std::nullopt;
+    value = 10 * value + (rest[i] - '0');
+  }
+  rest.remove_prefix(count);
+  return value;
+}
+bool take(std::string_view& rest, std::string_view any_of) {
+  if (rest.empty() || any_of.find(rest.front()) == any_of.npos) return false;
+  rest.remove_prefix(1);
+  return true;
+}
+// Removes one of the separators and two digits.
+std::optional<int> take_part(std::string_view& rest, std::string_view separators) {
+  return take(rest, separators) ? take_digits(rest, 2) : std::nullopt;
+}
+
+// Removes a colon and seconds with decimals; returns 0 if there are none.
+std::optional<double> take_seconds(std::string_view& rest) {
+  if (rest.empty() || rest.front() != ':') return 0.0;
+  const std::optional<int> whole = take_part(rest, ":");
+  if (!whole) return std::nullopt;
+  double second = *whole;
+  if (!take(rest, ".,")) return second;
+  std::size_t digits = 0;
+  for (double unit = 0.1; !rest.empty() && std::isdigit(static_cast<unsigned char>(rest.front())) != 0; unit /= 10.0) {
+    second += unit * (rest.front() - '0');
+    rest.remove_prefix(1);
+    ++digits;
+  }
+  return digits > 0 ? std::optional<double>(second) : std::nullopt;
+}
+
 class StationReader {
  public:
-  StationReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+  StationReader(const std::filesystem::path& file, std::string_view bytes, std::optional<int> offset_minutes)
+      : file_(file), bytes_(bytes), offset_minutes_(offset_minutes) {}
 
   WeatherFile read() {
     LineReader lines(bytes_);
@@ -39,7 +77,8 @@ class StationReader {
       const std::string_view line = trimmed(lines.line());
       if (line.empty() || line.front() == '#') continue;
       line_ = lines.number();
-      split_cells(line, cells_);
+      if (columns_.count == 0) separator_ = separator_of(line);
+      split_cells(line, cells_, separator_);
       if (columns_.count == 0) {
         read_header();
       } else {
@@ -74,14 +113,18 @@ class StationReader {
     }
     if (columns_.time == not_there) {
       refuse_line(file_, line_, fmt::format("the line of column names is {}", in_quotes(cells_.front())),
-                  "no column is named time", "begin with a line such as time,ghi or time,dni,dhi; separate by commas");
+                  "no column is named time", "begin with a line such as time,ghi or time,dni,dhi");
     }
-    const bool one_part = (columns_.dni == not_there) != (columns_.dhi == not_there);
-    if (one_part) {
-      refuse_line(file_, line_, fmt::format("column {} is missing", columns_.dni == not_there ? "dni" : "dhi"),
-                  "direct normal and diffuse horizontal irradiance are needed together", "add it, or give only ghi");
+    const bool has_ghi = columns_.ghi != not_there, has_dni = columns_.dni != not_there, has_dhi = columns_.dhi != not_there;
+    if (has_dni && !has_dhi) {
+      refuse_line(file_, line_, "column dhi is missing", "direct normal irradiance needs the diffuse one beside it",
+                  "add it, or give only ghi");
     }
-    if (columns_.ghi == not_there && columns_.dni == not_there) {
+    if (has_dhi && !has_ghi && !has_dni) {
+      refuse_line(file_, line_, "columns ghi and dni are missing", "diffuse irradiance needs one of them beside it",
+                  "add ghi or dni");
+    }
+    if (!has_ghi && !has_dni) {
       refuse_line(file_, line_, "no irradiance", "no columns are named ghi, or dni and dhi", "add such columns, in W m-2");
     }
   }
@@ -89,7 +132,7 @@ class StationReader {
   void read_row() {
     if (cells_.size() != columns_.count) {
       refuse_line(file_, line_, fmt::format("{} cells", cells_.size()), fmt::format("there are {} columns", columns_.count),
-                  "give every column a value, separated by commas");
+                  fmt::format("give every column a value, separated by {}", name_of_separator(separator_)));
     }
     WeatherInterval interval;
     interval.line = line_;
@@ -98,8 +141,8 @@ class StationReader {
       interval.ghi_w_m2 = read_value("ghi", cells_[columns_.ghi]);
     } else {
       interval.dni_w_m2 = read_value("dni", cells_[columns_.dni]);
-      interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
     }
+    if (columns_.dhi != not_there) interval.dhi_w_m2 = read_value("dhi", cells_[columns_.dhi]);
     if (!intervals_.empty() && seconds_between(intervals_.back().start, interval.start) <= 0.0) {
       refuse_line(file_, line_, fmt::format("time {}", in_quotes(cells_[columns_.time])),
                   fmt::format("it is not later than that of line {}", intervals_.back().line), "sort the rows by time");
@@ -108,7 +151,7 @@ class StationReader {
   }
 
   double read_value(std::string_view column, std::string_view cell) const {
-    const std::optional<double> value = parse_number(cell);
+    const std::optional<double> value = parse_number(cell, separator_);
     if (!value) {
       refuse_line(file_, line_, fmt::format("{} {}", column, in_quotes(cell)),
                   "must be a number; missing values are not interpolated", "fill it in, or remove the row to leave a gap");
@@ -123,58 +166,19 @@ class StationReader {
     return *value;
   }
 
-  // Removes exactly `count` digits from the front of `rest` and returns their value; nothing if there are other characters.
-  static std::optional<int> take_digits(std::string_view& rest, std::size_t count) {
-    if (rest.size() < count) return std::nullopt;
-    int value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (rest[i] < '0' || rest[i] > '9') return std::nullopt;
-      value = 10 * value + (rest[i] - '0');
+  // Returns the offset of a time whose end is `text`.
+  int offset_of(std::string_view text, const std::string& shown) const {
+    if (text.empty() && offset_minutes_) return *offset_minutes_;
+    if (text.empty()) {
+      refuse_line(file_, line_, shown, "has no offset from UTC, so the time is ambiguous",
+                  fmt::format("{}, or give utc_offset in [weather]", time_cure));
     }
-    rest.remove_prefix(count);
-    return value;
-  }
-  static bool take(std::string_view& rest, std::string_view any_of) {
-    if (rest.empty() || any_of.find(rest.front()) == any_of.npos) return false;
-    rest.remove_prefix(1);
-    return true;
-  }
-  // Removes one of the separators and two digits.
-  static std::optional<int> take_part(std::string_view& rest, std::string_view separators) {
-    return take(rest, separators) ? take_digits(rest, 2) : std::nullopt;
-  }
-
-  // Removes a colon and seconds with decimals; returns 0 if there are none.
-  static std::optional<double> take_seconds(std::string_view& rest) {
-    if (rest.empty() || rest.front() != ':') return 0.0;
-    const std::optional<int> whole = take_part(rest, ":");
-    if (!whole) return std::nullopt;
-    double second = *whole;
-    if (!take(rest, ".")) return second;
-    std::size_t digits = 0;
-    for (double unit = 0.1; !rest.empty() && std::isdigit(static_cast<unsigned char>(rest.front())) != 0; unit /= 10.0) {
-      second += unit * (rest.front() - '0');
-      rest.remove_prefix(1);
-      ++digits;
+    if (offset_minutes_) {
+      refuse_line(file_, line_, shown, "states its offset from UTC, although one is given for all times", "remove utc_offset");
     }
-    return digits > 0 ? std::optional<double>(second) : std::nullopt;
-  }
-
-  // Removes Z, +08, +0800 or +08:00 and returns minutes, positive to the east.
-  static std::optional<int> take_offset(std::string_view& rest) {
-    if (take(rest, "Zz")) return 0;
-    const bool west = rest.starts_with('-');
-    if (!take(rest, "+-")) return std::nullopt;
-    const std::optional<int> hours = take_digits(rest, 2);
-    int minutes = 0;
-    if (hours && !rest.empty()) {
-      static_cast<void>(take(rest, ":"));
-      const std::optional<int> given = take_digits(rest, 2);
-      if (!given) return std::nullopt;
-      minutes = *given;
-    }
-    if (!hours || *hours > 23 || minutes > 59) return std::nullopt;
-    return (west ? -1 : 1) * (60 * *hours + minutes);
+    const std::optional<int> offset = parse_utc_offset(text);
+    if (!offset) refuse_line(file_, line_, shown, "its offset from UTC cannot be read", time_cure);
+    return *offset;
   }
 
   UtcTime read_time(std::string_view cell) {
@@ -187,9 +191,7 @@ class StationReader {
     if (!year || !month || !day || !hour || !minute || !second)
       refuse_line(file_, line_, shown, "is not an ISO 8601 date and time", time_cure);
     rest = trimmed(rest);
-    if (rest.empty()) refuse_line(file_, line_, shown, "has no offset from UTC, so the time is ambiguous", time_cure);
-    const auto offset = take_offset(rest);
-    if (!offset || !rest.empty()) refuse_line(file_, line_, shown, "its offset from UTC cannot be read", time_cure);
+    const int offset = offset_of(rest, shown);
     const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
                                            std::chrono::day(static_cast<unsigned>(*day))};
     if (!date.ok() || *hour > 23 || *minute > 59 || *second >= 60.0)
@@ -199,8 +201,8 @@ class StationReader {
       refuse_line(file_, line_, shown, fmt::format("its year must lie between {} and {}", first_year, last_year),
                   "correct the year");
     }
-    if (intervals_.empty()) zone_minutes_ = *offset;
-    return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * *offset);
+    if (intervals_.empty()) zone_minutes_ = offset;
+    return plus_seconds({*year, *month, *day, *hour, *minute, *second}, -60.0 * offset);
   }
 
   // Lets each interval last until the next one starts, but no longer than the most common step.
@@ -220,6 +222,8 @@ class StationReader {
 
   const std::filesystem::path& file_;
   std::string_view bytes_;
+  std::optional<int> offset_minutes_;  // of all times, if they state none
+  char separator_ = ',';
   Columns columns_;
   std::vector<std::string_view> cells_;
   std::size_t line_ = 0;
@@ -229,8 +233,24 @@ class StationReader {
 
 }  // namespace
 
-WeatherFile read_station(const std::filesystem::path& file, std::string_view bytes) {
-  return StationReader(file, bytes).read();
+WeatherFile read_station(const std::filesystem::path& file, std::string_view bytes, std::optional<int> offset_minutes) {
+  return StationReader(file, bytes, offset_minutes).read();
+}
+
+std::optional<int> parse_utc_offset(std::string_view text) {
+  if (text == "Z" || text == "z") return 0;
+  const bool west = text.starts_with('-');
+  if (!take(text, "+-")) return std::nullopt;
+  const std::optional<int> hours = take_digits(text, 2);
+  int minutes = 0;
+  if (hours && !text.empty()) {
+    static_cast<void>(take(text, ":"));
+    const std::optional<int> given = take_digits(text, 2);
+    if (!given) return std::nullopt;
+    minutes = *given;
+  }
+  if (!hours || *hours > 23 || minutes > 59 || !text.empty()) return std::nullopt;
+  return (west ? -1 : 1) * (60 * *hours + minutes);
 }
 
 }  // namespace sunfleck

@@ -36,14 +36,18 @@ bool is_weather_file(const fs::path& file) {
   return extension == ".csv" || extension == ".epw";
 }
 
-WeatherFile read_weather(const fs::path& file, SourceFiles* files) {
+WeatherFile read_weather(const fs::path& file, SourceFiles* files, std::optional<int> offset_minutes) {
   if (!is_weather_file(file)) refuse_line(file, 0, "unknown format", "weather files are .csv or .epw", "use one of these");
   const std::string bytes = read_source(file, files, most_bytes);
   const std::string_view text = without_dos_end(without_mark(bytes));
   if (text.empty()) refuse_line(file, 0, "the file is empty", "a weather file needs at least one row", "export it again");
   if (text.find('\0') != text.npos)
     refuse_line(file, 0, "contains a zero byte", "a weather file is plain text", "save it as UTF-8 text");
-  WeatherFile weather = lower_extension(file) == ".epw" ? read_epw(file, text) : read_station(file, text);
+  const bool is_epw = lower_extension(file) == ".epw";
+  if (is_epw && offset_minutes) {
+    refuse_line(file, 0, "an offset from UTC is given", "an EPW file states its own", "remove utc_offset");
+  }
+  WeatherFile weather = is_epw ? read_epw(file, text) : read_station(file, text, offset_minutes);
   weather.weather.name = printable(shortened(file.filename().string(), longest_name));
   return weather;
 }

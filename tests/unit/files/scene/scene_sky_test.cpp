@@ -129,6 +129,10 @@ TEST_F(SceneSky, WeatherIsSplitAndShared) {
   const Scene erbs = read(plot_table + moment_table + uniform + "[weather]\nghi = 800\nsplit = \"erbs\"\n" + par_table);
   EXPECT_NEAR(erbs.model.bands[0].diffuse_w_m2, 400.0 * erbs_diffuse_share(800.0, sun, 220), 1e-10);
   const Scene parts = read(plot_table + angles + uniform + "[weather]\ndni = 600\ndhi = 90\n" + par_table);
+  const Scene rest = read(plot_table + angles + uniform + "[weather]\nghi = 500\ndhi = 90\n" + par_table);
+  EXPECT_TRUE(rest.warnings.empty());
+  EXPECT_NEAR(rest.model.bands[0].direct_w_m2, 0.5 * 410.0, 1e-9);
+  EXPECT_NEAR(rest.model.bands[0].diffuse_w_m2, 0.5 * 90.0, 1e-9);
   EXPECT_NEAR(parts.model.bands[0].direct_w_m2, 150.0, 1e-10);
   EXPECT_EQ(parts.model.bands[0].diffuse_w_m2, 45.0);
   EXPECT_TRUE(parts.warnings.empty());
@@ -178,7 +182,11 @@ TEST_F(SceneSky, RefusesWhatIsNoWeather) {
   expect_refused(head + "ghi = nan\n", "ghi", "weather.ghi", "0..3000");
   expect_refused(head + "dni = 600\n", "[weather]", "weather.dhi", "add dhi");
   expect_refused(head + "dhi = 600\n", "[weather]", "weather.dni", "add dni");
-  expect_refused(head + "ghi = 600\ndhi = 60\n", "dhi", "weather.dhi", "ghi is also given");
+  expect_refused(head + "ghi = 600\ndni = 60\n", "dni", "weather.dni", "ghi is also given");
+  expect_refused(head + "ghi = 600\ndhi = 60\nsplit = \"erbs\"\n", "split", "weather.split", "nothing to split");
+  expect_refused(head + "ghi = 600\nutc_offset = \"+08:00\"\n", "utc_offset", "weather.utc_offset",
+                 "only for the times of a file");
+  expect_refused(head + "file = \"station.csv\"\nutc_offset = \"8\"\n", "utc_offset", "weather.utc_offset", "write it as");
   expect_refused(head + "dni = 600\ndhi = 60\nsplit = \"erbs\"\n", "split", "weather.split", "nothing to split");
   expect_refused(head + "clear_sky = \"ineichen\"\nsplit = \"erbs\"\n", "split", "weather.split", "nothing to split");
   expect_refused(head + "ghi = 600\nsplit = \"reindl\"\n", "split", "weather.split", "one of spitters, erbs");

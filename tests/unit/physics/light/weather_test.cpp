@@ -75,6 +75,22 @@ TEST(Weather, AirMassOfKastenAndYoung) {
   EXPECT_NEAR(standard_pressure_hpa(5000.0), 540.20, 0.02);
 }
 
+TEST(Weather, TheBeamIsWhatIsNotDiffuse) {
+  const double sine = std::sin(paper_sun.elevation_rad);
+  const Broadband plain = without_diffuse(600.0, 150.0, paper_sun, paper_day);
+  EXPECT_NEAR(plain.direct_normal_w_m2, 450.0 / sine, 1e-10);
+  EXPECT_NEAR(plain.diffuse_w_m2, 150.0, 1e-10);
+  const Broadband all_diffuse = without_diffuse(100.0, 104.0, paper_sun, paper_day);
+  EXPECT_EQ(all_diffuse.direct_normal_w_m2, 0.0);
+  EXPECT_EQ(all_diffuse.diffuse_w_m2, 100.0);
+  // With a low sun, noise must not make a beam that is stronger than outside the atmosphere.
+  const SunPosition low{0.01, 2.0};
+  const Broadband capped = without_diffuse(60.0, 20.0, low, paper_day);
+  EXPECT_NEAR(capped.direct_normal_w_m2, extraterrestrial_normal_w_m2(1367.0, paper_day), 1e-9);
+  EXPECT_NEAR(capped.global_w_m2(low), 60.0, 1e-10);
+  EXPECT_EQ(without_diffuse(5.0, 1.0, {-0.01, 2.0}, paper_day).diffuse_w_m2, 5.0);
+}
+
 TEST(Weather, ClearSkyIsThatOfTheSeenSun) {
   const ClearAir air{.linke_turbidity = 3.0, .altitude_m = 300.0};
   for (const double elevation_deg : {0.001, 0.5, 3.0, 20.0, 53.0176, 89.999, 90.0}) {

@@ -36,6 +36,8 @@ TEST_F(Measured, ReadsItsPoints) {
 
 TEST_F(Measured, TakesWhatSpreadsheetsAndRWrite) {
   EXPECT_EQ(read("\xef\xbb\xbf\"height_m\",\"sunfleck_ratio\"\r\n0.1,0.2\r\n").points.at(0).sunfleck_ratio, 0.2);
+  EXPECT_EQ(read("height_m;sunfleck_ratio\n0,1;0,25\n").points.at(0).sunfleck_ratio, 0.25);
+  EXPECT_EQ(read("height_m\tsunfleck_ratio\n0.1\t0,25\n").points.at(0).height_m, 0.1);
   const MeasuredProfile swapped = read("sunfleck_ratio,height_m\n0.2,1.5");
   EXPECT_EQ(swapped.points.at(0).height_m, 1.5);
   EXPECT_EQ(swapped.points.at(0).sunfleck_ratio, 0.2);
@@ -46,10 +48,11 @@ TEST_F(Measured, RefusesOtherColumns) {
   EXPECT_EQ(message("0.1,0.2\n0.3,0.4\n"), "field.csv:1: columns '0.1,0.2' " + cure);
   EXPECT_EQ(message("height,ratio\n0.3,0.4\n"), "field.csv:1: columns 'height,ratio' " + cure);
   EXPECT_EQ(message("height_m,sunfleck_ratio,n\n0.3,0.4,3\n"), "field.csv:1: columns 'height_m,sunfleck_ratio,n' " + cure);
-  EXPECT_EQ(message("height;ratio\n0,3;0,4\n"), "field.csv:1: columns 'height;ratio' " + cure);
+  EXPECT_EQ(message("height;ratio\n0,3;0,4\n"), "field.csv:1: columns 'height,ratio' " + cure);
   EXPECT_EQ(message("a,b\nx,y\n"), "field.csv:1: columns 'a,b' " + cure);
   EXPECT_EQ(message("#\nheight_m\n0.3\n"), "field.csv:2: columns 'height_m' " + cure);
-  EXPECT_EQ(message("height_m;sunfleck_ratio\n0.3\n"), "field.csv:1: columns 'height_m;sunfleck_ratio' " + cure);
+  EXPECT_EQ(message("height_m;sunfleck_ratio\n0.3\n"),
+            "field.csv:2: 1 cells (the header in line 1 has 2 columns); give one cell per column, separated by semicolons");
   EXPECT_EQ(message("height_m,height_m\n"), "field.csv:1: column 'height_m' twice (column names must differ); rename one");
   EXPECT_EQ(message(",height_m,sunfleck_ratio\n1,2,3\n"),
             "field.csv:1: a column without a name (the header must name every column); name it");

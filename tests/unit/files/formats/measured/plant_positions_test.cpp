@@ -40,6 +40,7 @@ TEST_F(PlantPositions, MayHaveTheHeightInZ) {
   EXPECT_EQ(got[0].y_m, 3.0);
   EXPECT_EQ(got[0].z_m, 0.0);
   EXPECT_EQ(read("x,y,z\n1,2,0.5\n", HeightColumn::z)[0].z_m, 0.5);
+  EXPECT_EQ(read("x;y;z\n1,5;2;0,5\n", HeightColumn::z)[0].z_m, 0.5);
   expect_refusal([&] { static_cast<void>(read("plant,x,z\n1,2,3\n", HeightColumn::z)); },
                  "no column y (plants need x (east) and y (north)); begin with a line such as plant,x,y,heading,scale");
 }
@@ -51,7 +52,8 @@ TEST_F(PlantPositions, RefuseWhatIsWrongByItsLine) {
       {"x,y\n1,2\n", "plants.csv:1: no column z"},
       {"x,z,name\n1,2,3\n", "plants.csv:1: column 'name'"},
       {"x,z,x\n1,2,3\n", "plants.csv:1: column 'x' twice"},
-      {"x;z\n1;2\n", "plants.csv:1: column 'x;z' (commas separate the columns of a table); put commas"},
+      {"x z\n1 2\n", "plants.csv:1: column 'x z'"},
+      {"x;z\n1,5;2.5.1\n", "plants.csv:2: z = '2.5.1'"},
       {"0.3,0.4\n0.5,0.5\n", "plants.csv:1: column '0.3' (the first line must name the columns); begin with a line such as"},
       {"X,z\n1,2\n", "plants.csv:1: column 'X' (names of columns are in small letters); write x"},
       {"x,z\n1\n", "plants.csv:2: 1 cells"},

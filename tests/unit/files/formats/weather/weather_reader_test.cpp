@@ -1,5 +1,6 @@
 #include "files/formats/weather/weather_reader.h"
 
+#include "files/formats/weather/station_reader.h"
 #include "support/broken_files.h"
 
 #include <fmt/format.h>
@@ -89,6 +90,52 @@ TEST(StationReader, ReadsQuotedCells) {
       folder.write("a.csv", "\"time\",\"ghi\"\n\"2002-08-08T10:00:00+08:00\",700\n\"2002-08-08T10:10:00+08:00\", \"710.5\"\n"));
   ASSERT_EQ(file.weather.intervals.size(), 2U);
   EXPECT_EQ(file.weather.intervals[1].ghi_w_m2, 710.5);
+}
+
+TEST(StationReader, ReadsDiffuseBesideGlobalLight) {
+  const TempFolder folder;
+  const WeatherFile file =
+      read_weather(folder.write("a.csv", "time,ghi,dhi\n2002-08-08T10:00Z,500,100\n2002-08-08T11:00Z,510,90\n"));
+  ASSERT_EQ(file.weather.intervals.size(), 2U);
+  EXPECT_EQ(file.weather.intervals[1].ghi_w_m2, 510.0);
+  EXPECT_EQ(file.weather.intervals[1].dhi_w_m2, 90.0);
+  EXPECT_FALSE(file.weather.intervals[1].has_parts());
+}
+
+// As spreadsheets write them where a comma is the decimal mark.
+TEST(StationReader, ReadsSemicolonsAndTabsWithDecimalCommas) {
+  const TempFolder folder;
+  for (const std::string separator : {";", "\t"}) {
+    const auto row = [&](std::string_view time, std::string_view value) {
+      return fmt::format("{}{}{}\n", time, separator, value);
+    };
+    const WeatherFile file = read_weather(folder.write(
+        "a.csv", row("time", "ghi") + row("2002-08-08 10:00:00,5+08:00", "1.5") + row("2002-08-08 10:10+08:00", "710,25")));
+    ASSERT_EQ(file.weather.intervals.size(), 2U);
+    EXPECT_EQ(file.weather.intervals[0].ghi_w_m2, 1.5);
+    EXPECT_EQ(file.weather.intervals[1].ghi_w_m2, 710.25);
+  }
+}
+
+TEST(StationReader, GivesTimesWithoutOffsetTheOneGiven) {
+  const TempFolder folder;
+  const auto file = folder.write("a.csv", "time,ghi\n2002-08-08 10:00,1\n2002-08-08 10:10:00,2\n");
+  const WeatherFile read = read_weather(file, nullptr, 330);
+  EXPECT_EQ(read.weather.zone_minutes, 330);
+  EXPECT_EQ(seconds_between({2002, 8, 8, 4, 30}, read.weather.intervals[0].start), 0.0);
+  expect_refusal([&] { static_cast<void>(read_weather(folder.write("b.csv", good_csv), nullptr, 330)); },
+                 "although one is given for all times");
+  expect_refusal([&] { static_cast<void>(read_weather(folder.write("c.epw", epw()), nullptr, 330)); },
+                 "EPW file states its own");
+}
+
+TEST(StationReader, KnowsOffsets) {
+  EXPECT_EQ(parse_utc_offset("Z"), 0);
+  EXPECT_EQ(parse_utc_offset("+08"), 480);
+  EXPECT_EQ(parse_utc_offset("-0330"), -210);
+  EXPECT_EQ(parse_utc_offset("+05:30"), 330);
+  for (const char* text : {"", "8", "+8", "+24:00", "+08:60", "+08:00 ", "UTC", "+08:0"})
+    EXPECT_FALSE(parse_utc_offset(text)) << text;
 }
 
 TEST(StationReader, KnowsTheFormsOfATime) {
@@ -209,10 +256,11 @@ TEST(WeatherAttack, BrokenStations) {
       {"only a header", "a.csv", "time,ghi\n", ": ", "no row found"},
       {"one row", "a.csv", "time,ghi\n2002-08-08T10:00Z,1\n", ": ", "one row found"},
       {"no time column", "a.csv", bad("time,ghi", "date,ghi"), ":2: ", "no column is named time"},
-      {"semicolons", "a.csv", bad("time,ghi", "time;ghi"), ":2: ", "separate by commas"},
+      {"semicolons", "a.csv", bad("time,ghi", "time;ghi"), ":3: 1 cells", "separated by semicolons"},
       {"no irradiance", "a.csv", bad("time,ghi", "time,GHI_Wm2"), ":2: ", "no columns are named ghi"},
       {"dni alone", "a.csv", bad("time,ghi", "time,dni"), ":2: ", "column dhi is missing"},
-      {"dhi beside ghi alone", "a.csv", bad("time,ghi", "time,ghi,dhi"), ":2: ", "column dni is missing"},
+      {"dhi alone", "a.csv", bad("time,ghi", "time,dhi"), ":2: ", "columns ghi and dni are missing"},
+      {"dni beside ghi", "a.csv", bad("time,ghi", "time,ghi,dni"), ":2: ", "column dhi is missing"},
       {"column twice", "a.csv", bad("time,ghi", "time,ghi,ghi"), ":2: ", "appears twice"},
       {"cell missing", "a.csv", bad(",710.5", ""), ":4: ", "there are 2 columns"},
       {"cell too many", "a.csv", bad(",710.5", ",710,5"), ":4: ", "3 cells"},
