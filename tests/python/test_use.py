@@ -3,6 +3,7 @@
 import copy
 import io
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -67,6 +68,14 @@ def test_a_day_as_data_frames():
     again = pickle.loads(pickle.dumps(day))
     assert np.array_equal(again.steps["PAR_incident"], day.steps["PAR_incident"], equal_nan=True)
     assert again.to_dataframe("plants").equals(day.to_dataframe("plants"))
+
+
+def test_a_simulation_shows_what_it_is_and_is_not_copied():
+    simulation = sunfleck.Simulation(with_arrays(DAY), device="cpu")
+    assert re.fullmatch(r"<sunfleck.Simulation of .*: 3 triangles, CPU path>", repr(simulation)), repr(simulation)
+    for attempt in (pickle.dumps, copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match="make one from its scene instead"):
+            attempt(simulation)
 
 
 def test_results_are_pickled_and_copied(result):

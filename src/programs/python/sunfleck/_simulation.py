@@ -192,6 +192,12 @@ class Simulation:
         """The number of triangles of the canopy."""
         return self._core.triangles
 
+    def __repr__(self) -> str:
+        return f"<sunfleck.Simulation of {self._source.file.name}: {self.triangles} triangles, {self.device['name']}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("Simulation: cannot be pickled or copied (it holds a tree and a device); make one from its scene instead")
+
     @contextlib.contextmanager
     def _tidied(self, always: bool = False) -> Iterator[None]:
         if always or self._source.text is not None:
