@@ -24,14 +24,14 @@ void expect_none(const Estimate& estimate) {
   EXPECT_TRUE(std::isnan(estimate.half_width)) << estimate.half_width;
 }
 
-// Returns a level leaf of 0.16 m2, and one that stands in the plane of a beam from the east.
-RadiationModel edge_on_model(const Plot& plot) {
+// Returns a level leaf of 0.16 m2, and one of 0.24 m2 that stands in the plane of a beam from the east.
+RadiationModel edge_on_model(const Plot& plot, double azimuth_deg = 90.0) {
   MeshMaker maker;
   maker.organ("leaf", 1, 1);
   maker.level(0.3, 0.7, 0.3, 0.7, 0.8);
   maker.organ("leaf", 1, 2);
   maker.quad({0.1, 0.1, 0.2}, {0.1, 0.1, 0.8}, {0.1, 0.5, 0.8}, {0.1, 0.5, 0.2});
-  return black_model(maker.mesh(), plot, sun_at(40.0, 90.0));
+  return black_model(maker.mesh(), plot, sun_at(40.0, azimuth_deg));
 }
 
 TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
@@ -44,6 +44,30 @@ TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
     // This one of the 20 layers up to 0.8 m holds only the standing leaf.
     expect_none(result.layers[5].sunlit_leaf_fraction);
   }
+}
+
+// A ray or none meets a leaf whose plane the beam misses by 0.01 degrees: where none does, the other leaf's rays tell nothing of it.
+TEST(EdgeOnLeaf, IsNotTakenForShadeIfItIsNearlySo) {
+  constexpr int runs = 60;
+  const RadiationModel model = edge_on_model(endless, 90.01);
+  int unmet = 0, held = 0, plant_held = 0, classes_held = 0;
+  const auto holds = [](const Estimate& share) { return std::abs(share.value - 1.0) <= share.half_width; };
+  for (int run = 0; run < runs; ++run) {
+    SolveSettings settings = fixed_work(model, 16'000.0, exposure_replicates);
+    settings.seed = static_cast<std::uint64_t>(run) + 1;
+    const RadiationResult result = simulate(model, settings);
+    unmet += result.organs[1].direct[0].value == 0.0 ? 1 : 0;
+    held += holds(result.sunlit_leaf_fraction) ? 1 : 0;
+    plant_held += holds(result.plants[0].sunlit_leaf_fraction) ? 1 : 0;
+    const Estimate& lit_m2 = result.leaf_classes.sunlit_m2;
+    classes_held += holds({lit_m2.value / 0.4, lit_m2.half_width / 0.4}) ? 1 : 0;
+  }
+  EXPECT_GT(unmet, runs / 5);
+  EXPECT_LT(unmet, runs * 4 / 5);
+  const double least = 0.95 * runs - 3.0 * std::sqrt(0.95 * 0.05 * runs);
+  EXPECT_GE(held, least);
+  EXPECT_GE(plant_held, least);
+  EXPECT_GE(classes_held, least);
 }
 
 TEST(CopiedLeaf, HasNoSunlitShareAndItsOriginalTakesAllLight) {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "physics/transport/model/layer_shares.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ class ResultMaker {
     result.organs = organ_results();
     result.plants = plant_results();
     result.layers = layer_results();
-    const double unseen_leaves_m2 = unseen_m2(unknown_foliage());
+    const double unseen_leaves_m2 = unseen_m2(unseen_foliage());
     result.leaf_classes = sums_.classes.leaves(unseen_leaves_m2, class_errors());
     result.element_error = sums_.element_errors(quantile_);
     result.side_error = sums_.side_errors(quantile_);
@@ -118,56 +119,88 @@ class ResultMaker {
     return unseen_sunlit_m2(std::move(parts), unseen(1.0));
   }
 
-  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little, from
-  // the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree with
+  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little or
+  // nothing of it, from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree with
   // what the rays met.
   [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, double unseen_lit_m2) const {
     if (!(facing_m2 > 0.0)) return {no_value, no_value};
-    if (!mean.says_little()) return mean.estimate(quantile_);
     const double unseen_share = unseen_lit_m2 / facing_m2;
-    return unseen_share < unknown_share ? mean.estimate(quantile_, unseen_share) : Estimate{no_value, no_value};
+    if (mean.says_little() && unseen_share >= unknown_share) return {no_value, no_value};
+    return mean.estimate_of_area(quantile_, unseen_share, 1.0);
   }
 
-  // Returns the parts of each organ of whose sunlit area the spread says little: [organ]; empty for the other organs.
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_organs() const {
-    std::vector<std::vector<FacingArea>> parts(sums_.organs.size());
+  // Returns the parts of groups of elements of whose sunlit area the replicates may show nothing, [group]: all that the beam can hit
+  // of a group whose spread says little, or else those nearer to edge-on than all that rays met. A landing there would count for more
+  // area than any that the spread knows of. `sunlit(group)` is the group's share, groups_of(e, give) calls give(group) for the groups
+  // of an element, and areas_of(e, give) calls give(group, area_m2).
+  template <class Sunlit, class GroupsOf, class AreasOf>
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_parts(std::size_t groups, const Sunlit& sunlit,
+                                                                  const GroupsOf& groups_of, const AreasOf& areas_of) const {
+    std::vector<float> met(groups);  // the largest area of a landing
     for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
-      const std::size_t organ = model_.canopy.organ_of[e];
-      if (!sums_.organs[organ].sunlit.says_little() || !exposure_.can_hit(e)) continue;
-      parts[organ].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
+      if (sums_.elements[e].both() == 0) continue;
+      groups_of(e, [&](std::size_t group) { met[group] = std::max(met[group], exposure_.lit_m2_per_landing(e)); });
+    }
+    std::vector<std::vector<FacingArea>> parts(groups);
+    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
+      if (!exposure_.can_hit(e)) continue;
+      const float of_landing_m2 = exposure_.lit_m2_per_landing(e);
+      const bool is_met = sums_.elements[e].both() > 0;
+      const auto is_unseen = [&](std::size_t group) {
+        return sunlit(group).says_little() || (!is_met && of_landing_m2 > met[group]);
+      };
+      bool any = false;
+      groups_of(e, [&](std::size_t group) { any = any || is_unseen(group); });
+      if (!any) continue;
+      areas_of(e, [&](std::size_t group, double part_m2) {
+        if (is_unseen(group)) parts[group].push_back({part_m2, of_landing_m2});
+      });
     }
     return parts;
   }
 
-  // Returns the same for the foliage in each layer: [layer].
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_layers() const {
-    const std::size_t count = areas_.layer_foliage_m2.size();
-    std::vector<std::vector<FacingArea>> parts(count);
-    const auto unknown = [&](std::size_t k) { return areas_.layer_facing_m2[k] > 0.0 && sums_.layers[k].sunlit.says_little(); };
-    bool any = false;
-    for (std::size_t k = 0; k < count; ++k) any = any || unknown(k);
-    std::vector<double> area_in_layer_m2(count);
-    for (std::size_t e = 0; any && e < sums_.elements.size(); ++e) {
-      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
-      const Triangle& corners = model_.canopy.corners[e];
-      add_area_by_layer(layout_.layers, corners, area_in_layer_m2);
-      const std::size_t first = first_layer(layout_, corners);
-      for (std::size_t k = first; k < layout_.end_layer(e, first); ++k) {
-        if (unknown(k)) parts[k].push_back({area_in_layer_m2[k], exposure_.lit_m2_per_landing(e)});
-        area_in_layer_m2[k] = 0.0;
-      }
-    }
-    return parts;
+  [[nodiscard]] double element_m2(std::size_t e) const { return area_m2(model_.canopy.corners[e]); }
+
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_organs() const {
+    const auto sunlit = [&](std::size_t organ) -> const ReplicateMean& { return sums_.organs[organ].sunlit; };
+    const auto groups_of = [&](std::size_t e, const auto& give) { give(model_.canopy.organ_of[e]); };
+    const auto areas_of = [&](std::size_t e, const auto& give) { give(model_.canopy.organ_of[e], element_m2(e)); };
+    return unseen_parts(sums_.organs.size(), sunlit, groups_of, areas_of);
   }
 
-  // Returns the same for all foliage together.
-  [[nodiscard]] std::vector<FacingArea> unknown_foliage() const {
-    std::vector<FacingArea> parts;
-    for (std::size_t e = 0; sums_.sunlit.says_little() && e < sums_.elements.size(); ++e) {
-      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
-      parts.push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
-    }
-    return parts;
+  // Return the same of foliage: by plant, by layer, and all of it as one group.
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_plants() const {
+    const auto sunlit = [&](std::size_t plant) -> const ReplicateMean& { return sums_.plants[plant].sunlit; };
+    const auto groups_of = [&](std::size_t e, const auto& give) {
+      const std::uint32_t plant = areas_.plants.of_surface[sums_.conversion.surfaces.number_of[e]];
+      if (areas_.foliage[e] && plant != PlantAreas::no_plant) give(plant);
+    };
+    const auto areas_of = [&](std::size_t e, const auto& give) {
+      groups_of(e, [&](std::size_t plant) { give(plant, element_m2(e)); });
+    };
+    return unseen_parts(sums_.plants.size(), sunlit, groups_of, areas_of);
+  }
+  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_layers() const {
+    const auto sunlit = [&](std::size_t layer) -> const ReplicateMean& { return sums_.layers[layer].sunlit; };
+    const auto groups_of = [&](std::size_t e, const auto& give) {
+      const std::size_t first = first_layer(layout_, model_.canopy.corners[e]);
+      for (std::size_t k = first; areas_.foliage[e] && k < layout_.end_layer(e, first); ++k) give(k);
+    };
+    LayerShares shares(layout_);
+    const auto areas_of = [&](std::size_t e, const auto& give) {
+      shares.visit(e, model_.canopy.corners[e], [&](std::size_t k, double share) { give(k, share * element_m2(e)); });
+    };
+    return unseen_parts(areas_.layer_foliage_m2.size(), sunlit, groups_of, areas_of);
+  }
+  [[nodiscard]] std::vector<FacingArea> unseen_foliage() const {
+    const auto sunlit = [&](std::size_t) -> const ReplicateMean& { return sums_.sunlit; };
+    const auto groups_of = [&](std::size_t e, const auto& give) {
+      if (areas_.foliage[e]) give(0);
+    };
+    const auto areas_of = [&](std::size_t e, const auto& give) {
+      if (areas_.foliage[e]) give(0, element_m2(e));
+    };
+    return std::move(unseen_parts(1, sunlit, groups_of, areas_of).front());
   }
 
   // Returns how much one beam ray changes a share of the rays that meet the scene, in one replicate.
@@ -176,7 +209,7 @@ class ResultMaker {
   }
 
   [[nodiscard]] std::vector<OrganResult> organ_results() const {
-    std::vector<std::vector<FacingArea>> parts = unknown_organs();
+    std::vector<std::vector<FacingArea>> parts = unseen_of_organs();
     const ShadeClasses::Errors errors = class_errors();
     std::vector<OrganResult> results;
     for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
@@ -235,21 +268,9 @@ class ResultMaker {
     return both;
   }
 
-  // Returns the parts of each plant's leaves of whose sunlit area the spread says little: [plant]; empty for the other plants.
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unknown_plants() const {
-    std::vector<std::vector<FacingArea>> parts(sums_.plants.size());
-    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
-      if (!areas_.foliage[e] || !exposure_.can_hit(e)) continue;
-      const std::uint32_t plant = areas_.plants.of_surface[sums_.conversion.surfaces.number_of[e]];
-      if (plant == PlantAreas::no_plant || !sums_.plants[plant].sunlit.says_little()) continue;
-      parts[plant].push_back({area_m2(model_.canopy.corners[e]), exposure_.lit_m2_per_landing(e)});
-    }
-    return parts;
-  }
-
   [[nodiscard]] std::vector<PlantResult> plant_results() const {
     const PlantAreas& plants = areas_.plants;
-    std::vector<std::vector<FacingArea>> parts = unknown_plants();
+    std::vector<std::vector<FacingArea>> parts = unseen_of_plants();
     const std::vector<Varies> varies = varies_on_plants();
     std::vector<PlantResult> results;
     for (std::size_t p = 0; p < plants.size(); ++p) {
@@ -294,7 +315,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
-    std::vector<std::vector<FacingArea>> parts = unknown_layers();
+    std::vector<std::vector<FacingArea>> parts = unseen_of_layers();
     const ShadeClasses::Errors errors = class_errors();
     const double one_ray = unseen(share_of_one_ray());
     std::vector<LayerResult> results;

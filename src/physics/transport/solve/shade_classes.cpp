@@ -114,7 +114,7 @@ void ShadeClasses::add(const Replicate& replicate, PlaceSums& landed) {
 ShadeClassResult ShadeClasses::result(const ShadeMeans& means, double open_m2, double unseen_lit_m2,
                                       const Errors& errors) const {
   ShadeClassResult result;
-  result.sunlit_m2 = means.lit_m2.estimate(errors.t_quantile, unseen_lit_m2);
+  result.sunlit_m2 = means.lit_m2.estimate_of_area(errors.t_quantile, unseen_lit_m2, open_m2);
   // The estimate is unbiased and may leave this range by chance, although the area cannot.
   result.sunlit_m2.value = std::clamp(result.sunlit_m2.value, 0.0, open_m2);
   result.shaded_m2 = {open_m2 - result.sunlit_m2.value, result.sunlit_m2.half_width};

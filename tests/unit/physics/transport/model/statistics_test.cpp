@@ -53,6 +53,16 @@ TEST(ReplicateMean, HasAnIntervalOfAtLeastWhatMayBeUnseen) {
   EXPECT_EQ(mean.estimate(2.0, 0.01).half_width, mean.estimate(2.0).half_width) << "their spread is larger";
 }
 
+TEST(ReplicateMean, OfAnAreaAllowsForWhatNoRayMet) {
+  ReplicateMean mean;
+  for (int k = 0; k < 16; ++k) mean.add(0.5 + (k % 2 == 0 ? 0.001 : -0.001));
+  const double spread = mean.estimate(2.0).half_width;
+  EXPECT_EQ(mean.estimate_of_area(2.0, 2.9 * spread, 1.0).half_width, spread) << "no more than the spread may hide";
+  EXPECT_EQ(mean.estimate_of_area(2.0, 0.4, 1.0).half_width, 0.4);
+  EXPECT_NEAR(mean.estimate_of_area(2.0, 0.4, 10.0).half_width, 0.4 * 2.0 * 0.5 / 9.6, 1e-12) << "little of the rest is sunlit";
+  EXPECT_EQ(mean.estimate_of_area(2.0, 0.4, 1.0).value, mean.mean());
+}
+
 // A surface that few packets reach, some of which carry much and others little: where only faint ones came, their spread is small.
 // At least 95 % of 4,000 intervals must hold, within three standard errors; without what may be unseen 22 to 65 % do while
 // fewer than five are expected.
