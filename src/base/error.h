@@ -1,5 +1,5 @@
 #pragma once
-// The only exception type of the program, and the three-part message that every user sees:
+// The exception of all messages for users, and the three parts that each has:
 //   WHERE AND WHAT (WHY IT IS WRONG); WHAT TO DO
 // e.g.  maize.toml:14: optics.leaf.reflectance.PAR = 12 (must lie in 0..1); give 0.12 if percent was meant
 

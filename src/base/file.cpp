@@ -194,11 +194,29 @@ std::uintmax_t available_memory_bytes() {
     std::uintmax_t kib = 0;
     if (std::sscanf(line.c_str(), "MemAvailable: %ju kB", &kib) == 1) available = std::min(available, kib * 1024);
   }
-  // The control group (version 2) may allow less memory; its limit reads "max" if there is none.
-  std::uintmax_t limit = 0, used = 0;
-  std::ifstream limit_file("/sys/fs/cgroup/memory.max"), used_file("/sys/fs/cgroup/memory.current");
-  if (limit_file >> limit && used_file >> used) available = std::min(available, limit - std::min(limit, used));
+  constexpr std::string_view second_version = "0::";
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    if (!line.starts_with(second_version)) continue;
+    available = std::min(available, memory_left_by_groups("/sys/fs/cgroup", line.substr(second_version.size())));
+  }
   return available;
+}
+
+std::uintmax_t memory_left_by_groups(const fs::path& root, const fs::path& group) {
+  std::uintmax_t left = std::numeric_limits<std::uintmax_t>::max();
+  fs::path folder = root;
+  const auto add = [&] {
+    std::uintmax_t limit = 0, used = 0;  // the limit reads "max" if there is none
+    std::ifstream limit_file(folder / "memory.max"), used_file(folder / "memory.current");
+    if (limit_file >> limit && used_file >> used) left = std::min(left, limit - std::min(limit, used));
+  };
+  add();
+  for (const fs::path& part : group.relative_path()) {
+    folder /= part;
+    add();
+  }
+  return left;
 }
 
 void expect_file(const fs::path& file) {

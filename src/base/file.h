@@ -25,9 +25,13 @@ void expect_folder_of(const std::filesystem::path& file);
 // Returns the memory of this machine, or the largest number if the system does not report it.
 [[nodiscard]] std::uintmax_t physical_memory_bytes();
 
-// Returns how much more memory this process could allocate: the system's available memory, or what its control group has left
+// Returns how much more memory this process could allocate: the system's available memory, or what its control groups have left
 // if that is less. Returns the memory of the machine if the system reports neither.
 [[nodiscard]] std::uintmax_t available_memory_bytes();
+
+// Returns how much memory a control group (version 2) and those around it leave, the least of all, or the largest number if none has a
+// limit. `group` is its path as /proc/self/cgroup states it, from the root at which the groups are mounted.
+[[nodiscard]] std::uintmax_t memory_left_by_groups(const std::filesystem::path& root, const std::filesystem::path& group);
 
 // Writes to a temporary file in the same folder and renames it, so that the file is either complete or absent even if the
 // program is killed. To survive a power cut too, it calls fsync on the file before renaming it, and on the folder before

@@ -8,9 +8,17 @@ namespace sunfleck {
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (is_capital(c)) c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) {
+    if (is_letter(c) && !is_capital(c)) c = static_cast<char>(c - 'a' + 'A');
+  }
+  return upper;
 }
 
 std::string counted(std::size_t number, std::string_view one) {

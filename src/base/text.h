@@ -8,8 +8,17 @@
 
 namespace sunfleck {
 
-// Returns the text with the letters A to Z in lower case.
+// Return the text with the letters A to Z in lower case, or a to z in upper case. Unlike those of the C library, which follow the
+// locale that a host such as Python sets, these and is_letter are the same everywhere.
 [[nodiscard]] std::string lower_case(std::string_view text);
+[[nodiscard]] std::string upper_case(std::string_view text);
+
+[[nodiscard]] constexpr bool is_capital(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+[[nodiscard]] constexpr bool is_letter(char c) {
+  return is_capital(c) || (c >= 'a' && c <= 'z');
+}
 
 // Returns a number with the name of what is counted, in the plural unless it is one: "1 triangle", "3 triangles".
 [[nodiscard]] std::string counted(std::size_t number, std::string_view one);

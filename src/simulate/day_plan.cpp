@@ -154,6 +154,15 @@ Hours checked_hours(const DayRequest& request, const std::vector<sys_days>& date
   }
   const std::optional<Hours> hours = hours_of(request, dates, moment);
   if (!hours) throw_input("--from", "the sun does not rise on these dates", "give --from and --to");
+  if (hours->to_min <= hours->from_min && request.to.empty()) {
+    throw_input(fmt::format("--from {}", clock_text(hours->from_min)),
+                fmt::format("the steps of these dates end at {}, after sunset", clock_text(hours->to_min)), "give --to, too");
+  }
+  if (hours->to_min <= hours->from_min && request.from.empty()) {
+    throw_input(fmt::format("--to {}", clock_text(hours->to_min)),
+                fmt::format("the steps of these dates begin at {}, before sunrise", clock_text(hours->from_min)),
+                "give --from, too");
+  }
   if (hours->to_min <= hours->from_min) {
     throw_input(fmt::format("--to {}", clock_text(hours->to_min)),
                 fmt::format("it is not after {}", clock_text(hours->from_min)), "give the earlier time as --from");
@@ -243,7 +252,7 @@ std::vector<std::string> plan_warnings(const DayPlan& plan, const Scene& scene) 
   }
   if (!(left_out > worth_a_warning * (used + left_out))) return {};
   return {fmt::format(
-      "{}: {:.2g} % of its light falls in steps at whose middle the sun is below the horizon, and is left out; shorter "
+      "{}: {:.3g} % of its light falls in steps at whose middle the sun is below the horizon, and is left out; shorter "
       "steps lose less",
       weather->name, 100.0 * left_out / (used + left_out))};
 }

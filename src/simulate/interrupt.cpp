@@ -17,7 +17,6 @@ extern "C" void note_signal(int) {
 }
 
 extern "C" void exit_now(int) {
-  constexpr int exit_interrupted = 130;
   constexpr char message[] = "sunfleck: interrupted (before anything was written)\n";
   static_cast<void>(!::write(STDERR_FILENO, message, sizeof message - 1));
   ::_exit(exit_interrupted);

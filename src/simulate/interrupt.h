@@ -4,6 +4,8 @@
 
 namespace sunfleck {
 
+inline constexpr int exit_interrupted = 130;  // the exit status of an interrupted run
+
 // Makes signals end the program at once, with one line and the exit status of an interrupted run. For use while nothing has
 // been written yet.
 void exit_on_interrupts();

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <exception>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -126,6 +127,9 @@ bool Ranks::serve(const std::function<void(const std::function<void(const Task&)
     report(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
     report(ErrorKind::failure, three_part_message("out of memory", "allocation failed", "run fewer ranks per machine"));
+  } catch (const std::exception& error) {
+    report(ErrorKind::failure,
+           three_part_message("a rank", error.what(), "free memory or threads, or run fewer ranks per machine"));
   }
   return served_;
 }

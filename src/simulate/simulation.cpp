@@ -5,6 +5,7 @@
 #include "base/threads.h"
 #include "base/version.h"
 #include "physics/light/beam_grid.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/receivers/sensors.h"
 #include "simulate/checkpoint.h"
 #include "simulate/ranks.h"
@@ -27,9 +28,6 @@ std::uint32_t sensor_rays(const SolveSettings& settings) {
   const double bound = settings.grid_m || settings.passes ? 0.01 : settings.accuracy.indirect;
   return static_cast<std::uint32_t>(std::clamp(3.0 / bound, 64.0, 16384.0));
 }
-
-// The total of a sensor is judged against at least this share of the incident irradiance, like the fluxes of the canopy.
-constexpr double least_judged_share = 0.01;
 
 // Returns the bound on sensors that the scene asks for, if any. A run that is over gives them no more time.
 std::optional<SensorBound> sensor_bound(const SolveSettings& settings, const RadiationResult& result, const Stopwatch& watch) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace sunfleck::test {
@@ -41,6 +42,24 @@ TEST(Work, EndsCloseBelowBothBounds) {
   std::printf("error / bound %.3f (direct), %.3f (indirect)\n", median(direct), median(indirect));
   EXPECT_GE(median(direct), 0.85);
   EXPECT_GE(median(indirect), 0.85);
+}
+
+// The run is stopped after its first replicate, so that the pilots before it are its result.
+TEST(Work, IsThatOfTheReplicatesInTheResult) {
+  const RadiationModel model = leaves_that_scatter();
+  SolveSettings settings;
+  settings.accuracy.direct = settings.accuracy.indirect = 1e-3;
+  std::atomic<bool> begun = false;
+  Monitor monitor;
+  monitor.report = [&](const Progress& progress) { begun = begun || progress.stage != Progress::Stage::pilot; };
+  monitor.interrupted = [&] { return bool{begun}; };
+  const Prepared prepared(model);
+  CpuTracer tracer(prepared.bvh, tracer_scene(model));
+  const RadiationResult result = solve(model, prepared.layout, tracer, settings, monitor);
+  ASSERT_EQ(result.stop, StopReason::interrupted);
+  ASSERT_EQ(result.direct.replicates, 16U);
+  const double rays = static_cast<double>(result.direct.rays) / 16.0;
+  EXPECT_NEAR(result.work.rays, rays, 0.05 * rays);
 }
 
 }  // namespace

@@ -180,8 +180,19 @@ TEST_F(ExportReadBack, Netcdf) {
   const json two = read(ExportKind::nc);
   expect_two_triangles(two);
   EXPECT_EQ(two["organ_names"], json({"leaf", printable(awkward_name)}));
+  EXPECT_EQ(two["organs_read_alike"], true);
   EXPECT_EQ(two["flag_meanings"].size(), 2U);
   EXPECT_EQ(two["bounds"][2], 2000.1) << "in double precision";
+}
+
+TEST_F(ExportReadBack, NetcdfWithLettersOfOtherLanguages) {
+  RadiationModel model = test::two_triangles();
+  model.canopy.organs[0].name = "feuille_\xc3\xa9";
+  model.canopy.organs[1].name = "tige";
+  write(ExportKind::nc, model, test::two_triangles_result());
+  const json found = read(ExportKind::nc);
+  EXPECT_EQ(found["organ_names"], json({"feuille_\xc3\xa9", "tige"}));
+  EXPECT_EQ(found["organs_read_alike"], true);
 }
 
 TEST_F(ExportReadBack, GltfInVtk) {

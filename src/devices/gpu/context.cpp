@@ -182,8 +182,6 @@ void create_device(GpuContext::Handles& handles, const DeviceLimits& limits) {
   const std::uint32_t family = compute_family(handles.physical).value();
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-  // A device that only translates Vulkan to another API requires this extension to be enabled.
-  constexpr const char* portability_subset = "VK_KHR_portability_subset";
   std::vector<const char*> extensions;
   if (has_extension(handles.physical.enumerateDeviceExtensionProperties(), portability_subset))
     extensions.push_back(portability_subset);

@@ -13,6 +13,8 @@ namespace sunfleck {
 
 inline constexpr std::uint32_t api_version = VK_API_VERSION_1_2;
 inline constexpr const char* validation_layer_name = "VK_LAYER_KHRONOS_validation";
+// A device that only translates Vulkan to another API has this extension, and requires that it is enabled.
+inline constexpr const char* portability_subset = "VK_KHR_portability_subset";
 inline constexpr const char* no_vulkan_cure = "install a Vulkan driver (Debian: mesa-vulkan-drivers) or use the CPU path";
 
 // Opens the loader. Throws Error (device) if none is installed.

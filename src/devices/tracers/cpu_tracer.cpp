@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 namespace sunfleck {
@@ -21,6 +22,31 @@ namespace {
 // Largest number of rays between two checks whether to stop: a fraction of a second.
 constexpr std::uint32_t rays_per_slice = 1U << 18U;
 constexpr std::uint32_t packets_per_slice = 1U << 17U;
+// Low rays through a small plot may cross half a million periods; all rays of a slice cross about as many at most.
+constexpr double crossings_per_slice = 0x1p22;
+
+// Returns how many periods a ray crosses that falls from top to ground, if it meets nothing. Directions of all kinds, which a direction
+// of 0 stands for, cross few on average.
+double crossings_of_fall(double fall_m, const glm::vec2& period_m, const glm::vec3& direction) {
+  const glm::dvec2 periods = fall_m / glm::dvec2(period_m);
+  if (direction == glm::vec3(0.0F)) return 2.0 * (periods.x + periods.y);
+  const double down = std::abs(double{direction.y});
+  return (periods.x * std::abs(direction.x) + periods.y * std::abs(direction.z)) / std::max(down, 1e-30);
+}
+
+// The rays that are followed between two checks whether to stop.
+struct Slice {
+  std::uint32_t rays = 0, rays_at_least = 0;  // of a slice, and of a thread's part of it
+
+  // Of `most` rays, in parts of `batch`.
+  Slice(std::uint32_t most, std::uint32_t batch, double crossings) : rays(most), rays_at_least(batch) {
+    const double few = crossings_per_slice / (1.0 + std::min<double>(crossings, shared::max_crossings));
+    if (few >= most) return;
+    constexpr std::uint32_t parts = 32;
+    rays = std::max(parts, static_cast<std::uint32_t>(few));
+    rays_at_least = std::clamp(rays / parts, 1U, batch);
+  }
+};
 
 // Follows beam rays side by side.
 class BeamSearches final : public SearchSource {
@@ -135,11 +161,14 @@ std::optional<TraceOutcome> CpuTracer::record_beam(const shared::BeamBlock& beam
 TraceOutcome CpuTracer::count_landings(const shared::BeamBlock& beam, const LandingCounter& landings,
                                        const StopQuestion& stop) {
   const std::uint32_t rays = beam.columns * beam.rows;
+  const double fall_m = double{beam.corner.y} - double{beam.ground.y};
+  const double crossings = domain_.periodic ? crossings_of_fall(fall_m, beam.period, beam.direction) : 0.0;
   for (std::uint32_t first = 0; first < rays;) {
     if (stop && stop()) return TraceOutcome::stopped;
     const Stopwatch watch;
-    const std::uint32_t end = first + std::min(beam_budget_.rays(), rays - first);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, rays_per_batch),
+    const Slice slice(beam_budget_.rays(), rays_per_batch, crossings);
+    const std::uint32_t end = first + std::min(slice.rays, rays - first);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, slice.rays_at_least),
                       [&](const auto& range) { count_part(beam, range.begin(), range.end(), landings); });
     beam_budget_.record_duration(end - first, watch.seconds());
     first = end;
@@ -175,13 +204,16 @@ void CpuTracer::trace_part(const shared::PacketBlock& scene, std::span<const sha
 
 TraceOutcome CpuTracer::trace(const shared::PacketBlock& scene, std::span<const shared::Packet> packets,
                               std::span<shared::Landing> landings, const StopQuestion& stop) {
+  const double fall_m = double{scene.top_y} - double{scene.ground.y};
   for (std::size_t first = 0; first < packets.size();) {
     if (stop && stop()) return TraceOutcome::stopped;
     const Stopwatch watch;
-    const std::size_t end = std::min(packets.size(), first + packet_budget_.rays());
-    const std::size_t least =
-        have_one_direction(packets.subspan(first, std::min<std::size_t>(2, end - first))) ? rays_per_batch : 256;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, least), [&](const auto& range) {
+    const bool parallel = have_one_direction(packets.subspan(first, std::min<std::size_t>(2, packets.size() - first)));
+    const glm::vec3 direction = parallel ? packets[first].direction : glm::vec3(0.0F);
+    const double crossings = domain_.periodic ? crossings_of_fall(fall_m, scene.period, direction) : 0.0;
+    const Slice slice(packet_budget_.rays(), parallel ? rays_per_batch : 256, crossings);
+    const std::size_t end = std::min(packets.size(), first + slice.rays);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, slice.rays_at_least), [&](const auto& range) {
       trace_part(scene, packets.subspan(range.begin(), range.size()), landings.subspan(range.begin(), range.size()));
     });
     packet_budget_.record_duration(static_cast<std::uint32_t>(end - first), watch.seconds());

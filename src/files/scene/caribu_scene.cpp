@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "files/formats/caribu/caribu_reader.h"
 #include "files/formats/caribu/light_reader.h"
 #include "files/formats/mesh/mesh_reader.h"
@@ -15,7 +16,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
@@ -245,8 +245,7 @@ CaribuBand caribu_band(std::string_view word) {
     return {std::string(word.substr(0, equals)), std::filesystem::path(word.substr(equals + 1))};
   }
   CaribuBand band{"", std::filesystem::path(word)};
-  band.name = band.file.stem().string();
-  std::transform(band.name.begin(), band.name.end(), band.name.begin(), [](unsigned char c) { return std::toupper(c); });
+  band.name = upper_case(band.file.stem().string());
   if (!is_plain_name(band.name)) {
     throw_input(fmt::format("--optics {}: invalid band name {}", printable(word), printable(band.name)), plain_name_rule,
                 "name it: --optics NAME=FILE");

@@ -14,8 +14,7 @@ namespace sunfleck {
 namespace {
 
 constexpr double most_irradiance_w_m2 = 1400.0;  // of sunlight on level ground, whole spectrum, brightened by clouds
-constexpr double umol_per_joule_of_par = 4.57;
-constexpr double largest_in_radians = 1.6;  // just above a right angle
+constexpr double largest_in_radians = 1.6;       // just above a right angle
 constexpr int decimals_of_radians = 3;
 
 // Returns how many decimals the shortest text of a number has.
@@ -79,7 +78,7 @@ bool warn_of_photons(const TomlTable& band, const char* key, double irradiance_w
       "{}: {:.6g} W m-2 is more than the sun sends to the ground, {:.0f}; if umol m-2 s-1 of PAR "
       "are meant, {} {:.4g} W m-2",
       band.place(key), irradiance_w_m2, most_irradiance_w_m2,
-      takes_unit(band) ? "add unit = \"umol_m2_s\", which makes it" : "give", irradiance_w_m2 / umol_per_joule_of_par));
+      takes_unit(band) ? "add unit = \"umol_m2_s\", which makes it" : "give", irradiance_w_m2 / par_umol_per_joule));
   return true;
 }
 

@@ -14,6 +14,9 @@ namespace sunfleck {
 // Total solar irradiance at the mean distance of the sun, W m-2 (Kopp and Lean 2011).
 inline constexpr double solar_constant_w_m2 = 1361.0;
 
+// Photons in the energy of sunlight of 400..700 nm, umol J-1 (McCree 1972).
+inline constexpr double par_umol_per_joule = 4.57;
+
 // Returns an upper bound of the share of the sun's radiation outside the atmosphere that lies in a range of wavelengths, 0..1:
 // that of a black body of 5772 K (IAU 2015 resolution B3; Prsa et al. 2016) and a quarter more, since in parts of its spectrum,
 // such as at 450 and 1,600 nm, the sun is up to a fifth brighter (Thekaekara 1973).

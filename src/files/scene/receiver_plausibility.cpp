@@ -91,12 +91,17 @@ void warn_of_sensors(const TomlTable& root, const RadiationModel& model, std::ve
 void warn_of_wide_plot(const TomlTable& root, const Plot& plot, const StandBox& box, std::vector<std::string>& warnings) {
   const double width_m = std::max(box.hi_m.x - box.lo_m.x, box.hi_m.z - box.lo_m.z);
   if (width_m <= 0.0 || std::min(plot.size_x_m, plot.size_z_m) <= widest_plot * width_m) return;
+  const double times = std::min(plot.size_x_m, plot.size_z_m) / width_m;
+  constexpr double too_wide = 200.0;
   const glm::dvec2 size_m = along_level_axes(plot.axes, {plot.size_x_m, plot.size_z_m});
-  warnings.push_back(
-      fmt::format("{}: the plot is {:.0f} times wider than the stand, {:.4g} m; if centimetres were meant, give "
-                  "[{:.6g}, {:.6g}]",
-                  root.table("plot")->place("size"), std::min(plot.size_x_m, plot.size_z_m) / width_m, width_m,
-                  size_m.x / 100.0, size_m.y / 100.0));
+  warnings.push_back(fmt::format(
+      "{}: the plot is {:.0f} times wider than the stand, {:.4g} m; if centimetres were meant, give "
+      "[{:.6g}, {:.6g}]{}",
+      root.table("plot")->place("size"), times, width_m, size_m.x / 100.0, size_m.y / 100.0,
+      times < too_wide ? ""
+                       : fmt::format(", or else at most {:.4g}: rays may miss all of the soil beside the stand, whose "
+                                     "light the errors then leave out",
+                                     too_wide * width_m)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "files/scene/scene_bands.h"
 
 #include "base/text.h"
+#include "files/scene/light_plausibility.h"
 #include "files/scene/plain_name.h"
 #include "files/scene/scene_spectra.h"
 
@@ -17,8 +18,7 @@ namespace {
 constexpr double largest_irradiance_w_m2 = 1e15;
 constexpr std::size_t most_bands = 1000;
 constexpr NumberRange wavelength_nm{.lo = 100.0, .hi = 1e6, .cure = "give nm, e.g. [400, 700]"};
-constexpr double default_share = 0.5;        // share of PAR in solar radiation
-constexpr double par_umol_per_joule = 4.57;  // of sunlight of 400..700 nm (McCree 1972)
+constexpr double default_share = 0.5;  // share of PAR in solar radiation
 
 std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& earlier) {
   band.require("name", "name = \"PAR\"");

@@ -27,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t most_rows = 10000;
-constexpr std::int64_t most_plants = 10000;  // about 2e8 triangles of the generator, about 15 GB
 
 GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far) {
   static_cast<void>(table.word("generator", {"maize"}));  // the only generator
@@ -39,6 +38,7 @@ GeometryPart read_generator(const TomlTable& table, std::int64_t& plants_so_far)
   stand.rows = static_cast<int>(table.integer("rows", 1, most_rows).value_or(stand.rows));
   stand.per_row = static_cast<int>(table.integer("per_row", 1, most_rows).value_or(stand.per_row));
   plants_so_far += std::int64_t{stand.rows} * stand.per_row;
+  constexpr auto most_plants = static_cast<std::int64_t>(most_maize_plants);
   if (plants_so_far > most_plants) {
     table.refuse(table.has("rows")      ? "rows"
                  : table.has("per_row") ? "per_row"

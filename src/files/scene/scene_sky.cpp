@@ -15,8 +15,6 @@ namespace {
 
 enum class Named { uniform, overcast, clear, cie, perez, lights };
 const std::vector<std::string> sky_names = {"uniform", "cie-overcast", "cie-clear", "cie", "perez", "lights"};
-constexpr int clear_type = 12;
-
 void refuse_foreign(const TomlTable& table, Named model) {
   const auto refuse = [&](const char* key, Named owner) {
     if (model == owner || !table.has(key)) return;
@@ -67,7 +65,7 @@ std::optional<SkyInput> read_sky(const TomlTable& root, const std::filesystem::p
       break;
     case Named::clear:
       input.model.kind = SkyKind::general;
-      input.model.cie_type = clear_type;
+      input.model.cie_type = cie_clear_type;
       break;
     case Named::cie:
       table->require("type", "type = 12, or another of 1 to 15");

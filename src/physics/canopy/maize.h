@@ -7,6 +7,8 @@
 
 namespace sunfleck {
 
+inline constexpr std::uint64_t most_maize_plants = 10000;  // about 2e8 triangles, about 15 GB
+
 struct MaizeStand {
   int rows = 4;                         // lines of plants running north-south (along X), side by side along Z
   int per_row = 3;                      // plants in each line

@@ -1,7 +1,8 @@
 #include "physics/canopy/role.h"
 
+#include "base/text.h"
+
 #include <algorithm>
-#include <cctype>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,23 +41,19 @@ constexpr std::string_view plants[] = {"plant", "crop", "tree", "shrub", "bush",
 // Words that mean the soil where they are the whole name: a ground cover is a plant.
 constexpr std::string_view soil_alone[] = {"ground", "earth"};
 
-bool is_letter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> found;
   bool inside = false;
   bool small = false;  // the letter before is a small one
   for (const char c : name) {
-    const bool capital = std::isupper(static_cast<unsigned char>(c)) != 0;
     if (is_letter(c)) {
-      if (!inside || (small && capital)) found.emplace_back();
-      found.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (!inside || (small && is_capital(c))) found.emplace_back();
+      found.back() += c;
     }
     inside = is_letter(c);
-    small = inside && !capital;
+    small = inside && !is_capital(c);
   }
+  for (std::string& word : found) word = lower_case(word);
   return found;
 }
 

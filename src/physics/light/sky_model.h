@@ -20,13 +20,15 @@ struct SkyLight {
   glm::dvec3 to_sky{0, 1, 0};  // unit vector, y at least least_sky_sine
 };
 
+inline constexpr int cie_clear_type = 12;  // of ISO 15469:2004
+
 // The sky as a scene describes it; its radiance follows once the sun is known.
 struct SkyModel {
   SkyKind kind = SkyKind::uniform;
-  int cie_type = 12;             // general: type 1 to 15 of ISO 15469:2004; 12 is the CIE clear sky
-  double dni_w_m2 = 0.0;         // all_weather: broadband direct normal irradiance
-  double dhi_w_m2 = 0.0;         // all_weather: broadband diffuse horizontal irradiance, > 0
-  std::vector<SkyLight> lights;  // lights: at least one with a positive weight
+  int cie_type = cie_clear_type;  // general: type 1 to 15 of ISO 15469:2004
+  double dni_w_m2 = 0.0;          // all_weather: broadband direct normal irradiance
+  double dhi_w_m2 = 0.0;          // all_weather: broadband diffuse horizontal irradiance, > 0
+  std::vector<SkyLight> lights;   // lights: at least one with a positive weight
 
   // Returns true if the radiance depends on the sun's position, as for types 2, 4 and 6 to 15, and all_weather.
   [[nodiscard]] bool follows_sun() const;

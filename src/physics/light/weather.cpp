@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double spitters_solar_constant_w_m2 = 1370.0;  // Spitters et al. 1986, eq. 1
-constexpr double solar_constant_w_m2 = 1367.0;           // World Radiometric Centre, as in Duffie and Beckman 1980
+constexpr double wrc_solar_constant_w_m2 = 1367.0;       // World Radiometric Centre, as in Duffie and Beckman 1980
 constexpr double sea_level_pressure_hpa = 1013.25;       // ISO 2533
 
 // Returns the time as the weather's file states it.
@@ -120,7 +120,7 @@ double spitters_diffuse_share(double global_w_m2, const SunPosition& sun, std::o
 
 double erbs_diffuse_share(double global_w_m2, const SunPosition& sun, std::optional<int> day) {
   if (sun.elevation_rad <= 0.0) return 1.0;
-  const double k = clearness(global_w_m2, solar_constant_w_m2, sun, day);
+  const double k = clearness(global_w_m2, wrc_solar_constant_w_m2, sun, day);
   if (k <= 0.22) return 1.0 - 0.09 * k;
   if (k > 0.8) return 0.165;
   return 0.9511 + k * (-0.1604 + k * (4.388 + k * (-16.638 + k * 12.336)));
@@ -131,13 +131,14 @@ Broadband split_global(double global_w_m2, SplitRule rule, const SunPosition& su
   if (sun.elevation_rad <= 0.0) return {0.0, global_w_m2};
   const bool spitters = rule == SplitRule::spitters;
   const double share = spitters ? spitters_diffuse_share(global_w_m2, sun, day) : erbs_diffuse_share(global_w_m2, sun, day);
-  const double outside_w_m2 = extraterrestrial_normal_w_m2(spitters ? spitters_solar_constant_w_m2 : solar_constant_w_m2, day);
+  const double outside_w_m2 =
+      extraterrestrial_normal_w_m2(spitters ? spitters_solar_constant_w_m2 : wrc_solar_constant_w_m2, day);
   return with_possible_direct(global_w_m2, (1.0 - share) * global_w_m2, outside_w_m2, sun);
 }
 
 Broadband without_diffuse(double global_w_m2, double diffuse_w_m2, const SunPosition& sun, std::optional<int> day) {
   if (sun.elevation_rad <= 0.0) return {0.0, global_w_m2};
-  const double outside_w_m2 = extraterrestrial_normal_w_m2(solar_constant_w_m2, day);
+  const double outside_w_m2 = extraterrestrial_normal_w_m2(wrc_solar_constant_w_m2, day);
   return with_possible_direct(global_w_m2, global_w_m2 - diffuse_w_m2, outside_w_m2, sun);
 }
 
@@ -174,7 +175,7 @@ Broadband clear_sky(const ClearAir& air, const SunPosition& sun, std::optional<i
   const double apparent_rad = std::min(pi / 2.0, apparent_elevation_rad(sun.elevation_rad, {.pressure_hpa = pressure_hpa}));
   const double air_mass = relative_air_mass(apparent_rad) * pressure_hpa / sea_level_pressure_hpa;
   const Broadband seen =
-      ineichen_perez(air, pi / 2.0 - apparent_rad, air_mass, extraterrestrial_normal_w_m2(solar_constant_w_m2, day));
+      ineichen_perez(air, pi / 2.0 - apparent_rad, air_mass, extraterrestrial_normal_w_m2(wrc_solar_constant_w_m2, day));
   const double global_w_m2 = seen.global_w_m2({apparent_rad, sun.azimuth_rad});
   return with_direct(global_w_m2, std::min(global_w_m2, seen.direct_horizontal_w_m2(sun)), sun);
 }

@@ -4,6 +4,7 @@
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/formats/mesh/organ_split.h"
 #include "files/results/exports/exports.h"
+#include "physics/canopy/maize.h"
 #include "programs/cli/option_checks.h"
 #include "simulate/day_blocks.h"
 #include "simulate/result_folder.h"
@@ -279,8 +280,8 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
 void add_maize(CLI::App& app, MaizeOptions& options) {
   CLI::App& maize = add_command(app, "maize", "Write a parametric maize stand as glTF");
   maize.add_option("-o,--output", options.output, "Output file, .glb or .gltf")->check(not_empty())->capture_default_str();
-  add_number(maize, "--rows", options.rows, "Number of rows, which run along X", 1, most_plants);
-  add_number(maize, "--per-row", options.per_row, "Number of plants per row", 1, most_plants);
+  add_number(maize, "--rows", options.rows, "Number of rows, which run along X", 1, most_maize_plants);
+  add_number(maize, "--per-row", options.per_row, "Number of plants per row", 1, most_maize_plants);
   maize.add_option("--spacing", options.spacing_m, "Plant spacing along the row and between rows, m")
       ->expected(2)
       ->delimiter(',')

@@ -10,8 +10,6 @@
 
 namespace sunfleck {
 
-constexpr std::uint64_t most_plants = 10000;  // the same limit as in a scene file
-
 // Options that are given as words and converted after parsing.
 struct OptionWords {
   std::optional<double> both_errors;

@@ -7,6 +7,7 @@
 #include "base/version.h"
 #include "files/formats/mesh/mesh_reader.h"
 #include "files/results/exports/exports.h"
+#include "physics/canopy/maize.h"
 #include "programs/cli/option_groups.h"
 #include "simulate/result_folder.h"
 
@@ -185,9 +186,9 @@ ViewOptions finished(ViewOptions options, const OptionWords& words, const CLI::A
 
 void check_stand(const MaizeOptions& options) {
   const std::uint64_t plants = static_cast<std::uint64_t>(options.rows) * static_cast<std::uint64_t>(options.per_row);
-  if (plants <= most_plants) return;
+  if (plants <= most_maize_plants) return;
   throw_input(fmt::format("--rows {} --per-row {}", options.rows, options.per_row),
-              fmt::format("{} plants; at most {} are allowed", plants, most_plants),
+              fmt::format("{} plants; at most {} are allowed", plants, most_maize_plants),
               "give fewer; a periodic plot repeats them without end");
 }
 

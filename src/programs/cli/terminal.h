@@ -6,6 +6,7 @@
 #include "physics/transport/model/result.h"
 #include "physics/transport/solve/solve.h"
 #include "programs/cli/options.h"
+#include "simulate/interrupt.h"
 #include "simulate/simulation.h"
 
 #include <filesystem>
@@ -19,7 +20,6 @@ namespace sunfleck {
 inline constexpr int exit_done = 0;
 inline constexpr int exit_failed = 1;
 inline constexpr int exit_short_of_bound = 1;
-inline constexpr int exit_interrupted = 130;
 
 // Starts the log, which is quiet with --quiet and --json, warns of options without effect, and lets an interrupt end the program
 // while nothing is written yet.

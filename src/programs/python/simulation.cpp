@@ -34,8 +34,8 @@ class PythonSimulation {
   }
 
   void relight(const std::filesystem::path& file, const std::string& text) {
+    // Other threads of the interpreter wait, since they may read the scene.
     const Turn turn(busy_);
-    const py::gil_scoped_release release;
     simulation_->relight(SceneText{file, text, {}}, access_);
   }
 

@@ -2,16 +2,13 @@
 
 #include "base/units.h"
 #include "files/results/tables/irradiance.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/surfaces.h"
 
 #include <algorithm>
 
 namespace sunfleck {
 namespace {
-
-// These limits equal those by which the errors of a run are judged (Tally).
-constexpr double least_judged_share = 0.01;
-constexpr double least_judged_organ = 0.1;
 
 constexpr std::size_t canopy = static_cast<std::size_t>(Quantity::canopy);
 constexpr std::size_t layer = static_cast<std::size_t>(Quantity::layer);

@@ -15,8 +15,6 @@
 namespace sunfleck {
 namespace {
 
-constexpr int clear_type = 12;
-
 SunRequest sun_request(const Scene& scene) {
   SunRequest request;
   if (scene.model.sun) {
@@ -66,7 +64,7 @@ std::optional<SkyModel> sky_of(const SkyRequest& request, const Scene& scene) {
     case SkyRequestKind::clear:
     case SkyRequestKind::general:
       sky.kind = SkyKind::general;
-      sky.cie_type = request.kind == SkyRequestKind::clear ? clear_type : request.cie_type;
+      sky.cie_type = request.kind == SkyRequestKind::clear ? cie_clear_type : request.cie_type;
       break;
     case SkyRequestKind::all_weather:
       sky.kind = SkyKind::all_weather;

@@ -2,13 +2,14 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "devices/gpu/instance.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace sunfleck {
 namespace {
@@ -37,11 +38,8 @@ std::optional<vk::SurfaceFormatKHR> usable_format(const vk::raii::PhysicalDevice
 }
 
 bool can_draw(const vk::raii::PhysicalDevice& physical, const vk::raii::SurfaceKHR& surface) {
-  const auto extensions = physical.enumerateDeviceExtensionProperties();
-  const bool swapchain = std::any_of(extensions.begin(), extensions.end(), [](const auto& one) {
-    return std::strcmp(one.extensionName.data(), VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-  });
-  return swapchain && drawing_family(physical, surface) && usable_format(physical, surface) &&
+  return has_extension(physical.enumerateDeviceExtensionProperties(), VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+         drawing_family(physical, surface) && usable_format(physical, surface) &&
          (physical.getSurfaceCapabilitiesKHR(*surface).supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst);
 }
 
@@ -101,7 +99,9 @@ void Presenter::take_device(const vk::raii::Instance& instance) {
 void Presenter::create_device() {
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue({}, family_, 1, &priority);
-  const char* const extensions[] = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  std::vector<const char*> extensions{VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  if (has_extension(physical_.enumerateDeviceExtensionProperties(), portability_subset))
+    extensions.push_back(portability_subset);
   device_ = vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queue, {}, extensions));
   queue_ = device_.getQueue(family_, 0);
   commands_pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family_});

@@ -100,7 +100,7 @@ class Worker {
       const auto make = [this, order = message.order, dropped] {
         return service_.make(order, [dropped] { return bool{*dropped}; });
       };
-      making_.push_back({message.key, dropped, std::async(std::launch::async, make)});
+      if (!guarded([&] { making_.push_back({message.key, dropped, std::async(std::launch::async, make)}); })) return begun;
       orders_.pop_front();
       ++begun;
     }

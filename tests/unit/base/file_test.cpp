@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <ostream>
 #include <random>
@@ -20,6 +21,27 @@ namespace {
 std::size_t files_in(const std::filesystem::path& folder) {
   const std::filesystem::directory_iterator files(folder);
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+// As a batch system sets them: a limit of the job around a group of the process without one.
+TEST(Memory, IsWhatAllControlGroupsLeave) {
+  const TempFolder folder;
+  const std::filesystem::path process = folder / "job" / "step";
+  std::filesystem::create_directories(process);
+  const auto set = [](const std::filesystem::path& group, const char* limit, const char* used) {
+    write_file(group / "memory.max", limit);
+    write_file(group / "memory.current", used);
+  };
+  EXPECT_EQ(memory_left_by_groups(folder.path(), "/job/step"), std::numeric_limits<std::uintmax_t>::max());
+  set(process, "max\n", "700\n");
+  set(folder / "job", "1000\n", "800\n");
+  EXPECT_EQ(memory_left_by_groups(folder.path(), "/job/step"), 200U);
+  EXPECT_EQ(memory_left_by_groups(folder.path(), "/"), std::numeric_limits<std::uintmax_t>::max());
+  set(process, "700\n", "701\n");
+  EXPECT_EQ(memory_left_by_groups(folder.path(), "/job/step"), 0U);
+  set(folder.path(), "50\n", "0\n");
+  EXPECT_EQ(memory_left_by_groups(folder.path(), "/job"), 50U)
+      << "the root's counts where it is a group itself, as in a container";
 }
 
 TEST(File, HoldsWhatAStreamWrites) {

@@ -79,7 +79,7 @@ TEST_F(DayPlanTest, TellsOfLightThatNoStepHas) {
   // The sun rises at 05:05 and sets at 19:08 UTC: three hours before and three after have 20 W m-2.
   const std::vector<std::string> warnings = plan_warnings(plan_day(hours("02:00", "22:00", 60), scene), scene);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("station.csv: 2.4 % of its light"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("station.csv: 2.42 % of its light"), std::string::npos) << warnings[0];
   EXPECT_TRUE(plan_warnings(plan_day(hours("06:00", "18:00", 60), scene), scene).empty());
   const Scene clear = scene_at("2002-08-08T10:10:00Z");
   EXPECT_TRUE(plan_warnings(plan_day(hours("02:00", "22:00", 60), clear), clear).empty());
@@ -151,6 +151,10 @@ TEST_F(DayPlanTest, RefusalsAreOneLine) {
     options.date = date;
     expect_refusal([&] { static_cast<void>(plan_day(options, scene)); });
   }
+  expect_refusal([&] { static_cast<void>(plan_day(hours("23:00", "", 60), scene)); },
+                 "--from 23:00 (the steps of these dates end at");
+  expect_refusal([&] { static_cast<void>(plan_day(hours("", "01:00", 60), scene)); },
+                 "--to 01:00 (the steps of these dates begin at");
   DayRequest many = hours("00:00", "24:00", 1);
   many.to_date = "2100-12-31";
   expect_refusal([&] { static_cast<void>(plan_day(many, scene)); });

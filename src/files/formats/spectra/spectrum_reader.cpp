@@ -159,8 +159,7 @@ void order_by_wavelength(SpectralTable& table) {
   if (nm(rows.front()) > nm(rows.back())) std::reverse(rows.begin(), rows.end());
   constexpr double longest_um = 100.0;
   const std::string_view name = table.columns.empty() ? std::string_view() : table.columns[table.wavelength];
-  const bool um = says(name, {"um", "µm", "μm", "micro"}) || says(table.preamble, {"micrometer", "micrometre", "micron"}) ||
-                  nm(rows.back()) < longest_um;
+  const bool um = says(name, {"um", "µm", "μm", "micro"}) || nm(rows.back()) < longest_um;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     double& at_nm = rows[k].cells[table.wavelength];
     if (um) at_nm *= 1000.0;
@@ -187,7 +186,10 @@ Spectrum spectrum_in(const SpectralTable& table, std::size_t column) {
 Spectrum shares_in(const SpectralTable& table, std::size_t column, std::string_view what) {
   Spectrum spectrum = spectrum_in(table, column);
   const std::string_view name = table.columns.empty() ? what : std::string_view(table.columns[column]);
-  const bool percent = says(name, {"%", "percent", "pct"}) || says(table.preamble, {"percent", "(%)"});
+  // Remarks above the table may be about something else that is in percent.
+  const bool no_shares =
+      std::any_of(spectrum.values.begin(), spectrum.values.end(), [](double v) { return v > 1.0 + rounding; });
+  const bool percent = says(name, {"%", "percent", "pct"}) || (no_shares && says(table.preamble, {"percent", "(%)"}));
   for (std::size_t k = 0; k < spectrum.values.size(); ++k) {
     double& share = spectrum.values[k];
     if (percent) share *= 0.01;

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "files/formats/mesh/gltf_parts.h"
 #include "files/formats/mesh/organ_name.h"
 #include "files/results/exports/record_entries.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -22,9 +22,7 @@ constexpr const char* file_name = "canopy.glb";
 
 // Returns the name of a vertex attribute; custom names in glTF begin with `_` and are in capitals.
 std::string attribute_of(const std::string& band, std::string_view ending) {
-  std::string name = "_" + band + "_";
-  for (const char c : ending) name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
+  return "_" + band + "_" + upper_case(ending);
 }
 
 // Builds a root node with the record, at the canopy's origin, with one child per organ and one primitive per optics name. In

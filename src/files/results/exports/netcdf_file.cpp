@@ -168,6 +168,10 @@ void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std
 }
 
 void NetcdfFile::names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning) {
+  const auto is_ascii = [](const std::string& value) {
+    return std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80U; });
+  };
+  if (!std::all_of(values.begin(), values.end(), is_ascii)) return strings(name, dimension, values, meaning);
   std::size_t longest = 1;
   for (const std::string& value : values) longest = std::max(longest, value.size());
   const int length = this->dimension(name + "_length", longest);
@@ -180,6 +184,18 @@ void NetcdfFile::names(const std::string& name, int dimension, std::span<const s
     text.resize(text.size() + longest - value.size());
   }
   if (!values.empty()) put_all(number, text.data());
+}
+
+void NetcdfFile::strings(const std::string& name, int dimension, std::span<const std::string> values,
+                         std::string_view meaning) {
+  std::vector<std::string> shown;
+  for (const std::string& value : values) shown.push_back(printable(value));
+  std::vector<const char*> texts;
+  for (const std::string& text : shown) texts.push_back(text.c_str());
+  int number = -1;
+  check(FROM_NETCDF(nc_def_var)(file_, name.c_str(), NC_STRING, 1, &dimension, &number), fmt::format("variable {}", name));
+  attribute(number, "long_name", meaning);
+  put_all(number, texts.data());
 }
 
 std::string NetcdfFile::take() {

@@ -59,7 +59,8 @@ class NetcdfFile {
     return number;
   }
 
-  // Writes a variable of names, `name`(dimension, name_length), made printable and padded with zeros.
+  // Writes a variable of names, made printable: characters padded with zeros, `name`(dimension, name_length), or strings if a name has
+  // a letter that is not ASCII, since readers take the bytes of such characters apart.
   void names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning);
 
   // Completes the file; no other call may follow. Use `take` for a file in memory and `finish` for one on disk.
@@ -68,6 +69,7 @@ class NetcdfFile {
 
  private:
   [[nodiscard]] std::vector<std::size_t> shape_of(int variable);
+  void strings(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning);
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
   void put_all(int variable, const void* values);
   void check(int status, std::string_view what);

@@ -8,6 +8,7 @@
 #include "physics/transport/indirect/packet_books.h"
 #include "physics/transport/indirect/packet_draw.h"
 #include "physics/transport/indirect/packet_starts.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/columns.h"
 #include "shared/random.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 // The stop rule leaves this part of the bound unshot, relative to flux taken as at least 1 % of the incident flux.
 constexpr double unshot_part_of_bound = 0.1;
-constexpr double least_judged_share = 0.01;
 // Ends passes that would never end on their own, as in a closed box of perfect mirrors.
 constexpr std::uint64_t most_rounds = 20000;
 // First stream of random numbers, apart from those of the beam.

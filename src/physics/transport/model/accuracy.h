@@ -1,6 +1,8 @@
 #pragma once
 // The error bounds that a run must reach.
 
+#include <cstddef>
+
 namespace sunfleck {
 
 // The finest figures that a bound holds for. It always holds for the canopy.
@@ -15,6 +17,15 @@ enum class ElementErrors {
   keep_sides,  // and also of the flux incident on each of its sides
   keep_sides_and_refine,
 };
+
+// What a figure is judged against at least, lest a run never end where it is next to nothing: this share of the incident flux, or, for
+// the light that vegetation absorbs after the first landings, of all that it absorbs. Organs are judged if they receive at least the
+// second share of the mean organ's flux.
+inline constexpr double least_judged_share = 0.01;
+inline constexpr double least_judged_organ = 0.1;
+
+// Number of replicates after which errors are compared with the bounds for the first time; those of fewer are too uncertain.
+inline constexpr std::size_t first_check = 12;
 
 // Returns whether the light of each element is estimated at the end.
 [[nodiscard]] constexpr bool refines(ElementErrors errors) {

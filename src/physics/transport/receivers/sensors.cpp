@@ -1,6 +1,7 @@
 #include "physics/transport/receivers/sensors.h"
 
 #include "base/check.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/band_quanta.h"
 #include "physics/transport/model/surfaces.h"
 #include "physics/transport/receivers/sensor_paths.h"
@@ -19,8 +20,6 @@ constexpr std::size_t rays_at_a_time = std::size_t{1} << 18U;
 constexpr std::uint32_t sky_purpose = 0;
 // Rays traced between two questions whether the time is up: a few seconds' work.
 constexpr std::size_t most_rays_of_a_batch = std::size_t{1} << 22U;
-// Errors from fewer replicates are too uncertain to be compared with a bound.
-constexpr std::size_t first_check = 12;
 // On planes this close to level, rays that carry equal shares of the horizontal irradiance have the smallest variance.
 constexpr double nearly_level = 0.999;
 

@@ -1,19 +1,13 @@
 #include "physics/transport/solve/judged_error.h"
 
 #include "base/units.h"
+#include "physics/transport/model/accuracy.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sunfleck {
 namespace {
-
-// The soil is judged against at least this share of the incident flux, and the light that vegetation absorbs after the first
-// landings against at least this share of all light that it absorbs.
-constexpr double least_judged_share = 0.01;
-
-// Organs are judged if they receive at least this share of the mean organ's flux.
-constexpr double least_judged_organ = 0.1;
 
 // Returns the largest relative half-width of the organs' beam landings, or of their absorption of all other light.
 JudgedError organ_error(const RunSums& sums, double quantile, bool indirect) {

@@ -41,6 +41,8 @@ struct Series {
     archive(self.joint);
   }
 
+  Work work;                                   // of each replicate
+  std::vector<double> ray_shares;              // as in ReplicateOrder
   std::vector<Conversion> conversions;         // [light]
   std::vector<std::unique_ptr<RunSums>> sums;  // [light]; they refer to the conversions, so that a series cannot be copied
   std::vector<JointSums> joint;

@@ -135,6 +135,8 @@ class Solver {
       incidence.sky_rays = first.sky_rays;
     }
     series_ = std::make_unique<Series>(maker_, incidences, settings_, wanted_sums_);
+    series_->work = work;
+    series_->ray_shares = ray_shares_;
     queue_.begin(first, series_->conversions, planner_.at_once(work));
   }
 
@@ -278,6 +280,8 @@ class Solver {
     const bool use_fallback = fallback_ && (!series_ || series_->replicates() < 2);
     if (use_fallback) {
       series_ = std::move(fallback_);
+      work_ = series_->work;
+      ray_shares_ = series_->ray_shares;
     } else if (!series_) {
       begin(first_pilot);
     }

@@ -2,6 +2,7 @@
 // The state of a run between two replicates: everything needed to resume it as if it had never stopped.
 
 #include "base/number_pieces.h"
+#include "physics/transport/model/accuracy.h"
 #include "physics/transport/model/counters.h"
 #include "physics/transport/model/lights.h"
 #include "physics/transport/model/result.h"
@@ -15,8 +16,6 @@ namespace sunfleck {
 struct Series;
 struct SolveSettings;
 
-// Number of replicates after which the bounds are checked for the first time.
-inline constexpr std::size_t first_check = 12;
 // Largest number of packets in the first round of a replicate; on most machines memory limits it further.
 inline constexpr double most_first_packets = 0x1p24;
 

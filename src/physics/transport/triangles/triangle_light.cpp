@@ -30,7 +30,9 @@ void apportion(std::size_t count, std::int64_t total, const Value& value, const 
   for (std::size_t k = 0; k < count; ++k) {
     passed += equal ? 1.0 : std::max(0.0, value(k));
     const bool last = k + 1 == count;
-    const auto until = last ? total : static_cast<std::int64_t>(static_cast<double>(total) * std::min(1.0, passed / sum));
+    // A large total may be rounded up when it becomes a double.
+    const auto share = static_cast<std::int64_t>(static_cast<double>(total) * std::min(1.0, passed / sum));
+    const std::int64_t until = last ? total : std::min(total, share);
     give(k, until - given);
     given = until;
   }

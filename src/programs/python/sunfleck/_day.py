@@ -51,7 +51,7 @@ class DayResult:
 
     @property
     def complete(self) -> bool:
-        """Whether all steps were done and reached their bounds."""
+        """Whether all steps were done and reached their bounds, apart from dim ones that shared packets with brighter ones."""
         return self._core.complete
 
     @functools.cached_property

@@ -95,6 +95,23 @@ struct Stand {
   Bvh bvh;
 };
 
+// A ray of this sun crosses 30,000 periods, so that a single slice of all rays would take minutes.
+TEST(CpuTracer, AsksOftenWhetherToStopWhereTheSunIsLow) {
+  Stand stand;
+  CpuTracer cpu(stand.bvh, {true, true});
+  stand.model.sun = sun_at(0.001, 130);
+  int asked = 0;
+  const auto stop = [&] { return ++asked > 1; };
+  std::vector<std::uint32_t> counters(stand.layout.words());
+  const shared::BeamBlock beam = make_beam_block(stand.model, stand.layout, 100'000, 1, 0);
+  EXPECT_EQ(cpu.count_beam(beam, counters, stop), TraceOutcome::stopped);
+  std::vector<shared::Packet> packets;
+  for (std::uint32_t ray = 0; ray < 100'000; ++ray) packets.push_back(beam_packet(beam, ray % (beam.columns * beam.rows)));
+  std::vector<shared::Landing> landings(packets.size());
+  asked = 0;
+  EXPECT_EQ(cpu.trace(make_packet_block(stand.model, stand.layout), packets, landings, stop), TraceOutcome::stopped);
+}
+
 TEST(RememberedBeams, CountTheSameWithoutTracing) {
   Stand stand;
   CpuTracer cpu(stand.bvh, {true, true});

@@ -57,6 +57,7 @@ TEST_F(SpectrumFile, MaySeparateItsColumnsInAnyUsualWay) {
 TEST_F(SpectrumFile, MayHaveRemarksAndAPreamble) {
   expect_leaf("# PROSPECT, N = 1.5\n# wavelength reflectance transmittance\n400 0.1 0.05\n# a remark\n\n500 0.2 0.1\n");
   expect_leaf("Name: a leaf\nOrigin: 12,5 m; a library\nX Units: nm\n\n400\t0.1\t0.05\n500\t0.2\t0.1\n");
+  expect_leaf("# measured at 45 percent relative humidity, 200 micrometers thick\n400 0.1 0.05\n500 0.2 0.1\n");
   expect_leaf("lambda,tau,rho\n400,0.05,0.1\n500,0.1,0.2\n");
   expect_leaf("id,nm,refl. mean,trans. mean\n1,400,0.1,0.05\n1,500,0.2,0.1\n");
 }
