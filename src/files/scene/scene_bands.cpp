@@ -24,6 +24,8 @@ std::string read_band_name(const TomlTable& band, const std::vector<Waveband>& e
   band.require("name", "name = \"PAR\"");
   std::string name = *band.text("name");
   if (!is_plain_name(name)) band.refuse("name", plain_name_rule, "give a name such as PAR or band_1");
+  // results.nc has sensor_BAND_direct of the means of sensors and sensor_point_BAND_direct of their points.
+  if (name.starts_with("point_")) band.refuse("name", "names with point_ are those of points of sensors", "leave out point_");
   if (std::any_of(earlier.begin(), earlier.end(), [&](const Waveband& other) { return other.name == name; })) {
     band.refuse("name", "another [[band]] has this name", "give every band a different name");
   }

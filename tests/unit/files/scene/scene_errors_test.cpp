@@ -129,6 +129,7 @@ const std::vector<Breakage> breakages = {
      "[band]\nname = \"PAR\"\n", "[band]", "band", "two brackets"},
     {"BandTwice", "NIR_1", "PAR", "name          =", "band.name", "a different name"},
     {"BandNameSpace", "\"NIR_1\"", "\"N I R\"", "N I R", "band.name", "letters, digits"},
+    {"BandNameOfPoints", "\"NIR_1\"", "\"point_PAR\"", "point_PAR", "band.name", "leave out point_"},
     {"BandNameEmpty", "\"NIR_1\"", "\"\"", "\"\"", "band.name", "must not be empty"},
     {"BandNameMissing", "name          = \"NIR_1\"\n", "", "[[band]]\ndirect_normal", "band.name", "add name"},
     {"BandNegative", "350.0", "-350.0", "-350", "band.direct", "give W m-2"},
