@@ -70,6 +70,10 @@ def test_a_day_as_data_frames():
     assert again.to_dataframe("plants").equals(day.to_dataframe("plants"))
 
 
+def test_a_result_goes_through_its_columns(result):
+    assert list(result) == list(result.triangles) and "PAR_absorbed" in result and "PAR" not in result
+
+
 def test_a_simulation_shows_what_it_is_and_is_not_copied():
     simulation = sunfleck.Simulation(with_arrays(DAY), device="cpu")
     assert re.fullmatch(r"<sunfleck.Simulation of .*: 3 triangles, CPU path>", repr(simulation)), repr(simulation)

@@ -1,6 +1,7 @@
 #include "programs/cli/info_mesh.h"
 
 #include "base/file.h"
+#include "base/text.h"
 #include "files/formats/mesh/mesh_survey.h"
 #include "physics/canopy/role.h"
 #include "programs/cli/terminal.h"
@@ -85,19 +86,14 @@ ordered_json survey_json(const std::filesystem::path& file, const MeshSurvey& su
             {"organs", survey.defects.organs}}}};
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 void print_shares(const char* heading, const std::vector<MeshShare>& shares, double unit_m2) {
   constexpr std::size_t most_lines = 20;
   fmt::print("  {}\n", heading);
   for (std::size_t i = 0; i < std::min(shares.size(), most_lines); ++i) {
     const MeshShare& share = shares[i];
     fmt::print("    {}: {}, {}, {:.5g} m2 in {}; counts as {} by its {}\n", printable(share.name),
-               counted(share.organs, "organ", "organs"), counted(share.triangles, "triangle", "triangles"),
-               share.area * unit_m2, counted(share.pieces, "piece", "pieces"), role_name(share.role),
-               role_source_name(share.role_from));
+               counted(share.organs, "organ"), counted(share.triangles, "triangle"), share.area * unit_m2,
+               counted(share.pieces, "piece"), role_name(share.role), role_source_name(share.role_from));
   }
   if (shares.size() > most_lines) fmt::print("    and {} more (--json lists them all)\n", shares.size() - most_lines);
 }
@@ -114,7 +110,7 @@ std::string among(const std::vector<std::string>& names) {
 void print_defects(const MeshDefects& defects) {
   std::vector<std::string> found;
   const auto add = [&](std::size_t count, const char* one, const char* many) {
-    if (count > 0) found.push_back(counted(count, one, many));
+    if (count > 0) found.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
   };
   add(defects.flat_triangles, "triangle without area", "triangles without area");
   add(defects.slivers, "sliver", "slivers");
@@ -145,14 +141,12 @@ void print_survey(const std::filesystem::path& file, const MeshSurvey& survey, c
              survey.frame.unit_reason);
   fmt::print("  box: x {}, y {}, z {}\n", range_text(shape.lo.x, shape.hi.x), range_text(shape.lo.y, shape.hi.y),
              range_text(shape.lo.z, shape.hi.z));
-  fmt::print("  {}, one-sided area {:.5g} m2{}\n", counted(survey.triangles, "triangle", "triangles"), survey.area_m2(),
+  fmt::print("  {}, one-sided area {:.5g} m2{}\n", counted(survey.triangles, "triangle"), survey.area_m2(),
              survey.frame.metres_per_unit == 1.0 ? "" : fmt::format(" ({:.5g} square units)", survey.area));
-  fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant", "plants"),
-             counted(survey.organs, "organ", "organs"), counted(shape.pieces, "connected piece", "connected pieces"),
-             survey.closed_pieces);
-  fmt::print("  named in the file: {}, {}, {}\n", counted(named.objects, "object", "objects"),
-             counted(named.groups, "group", "groups"),
-             counted(survey.has_materials() ? survey.materials.size() : 0, "material", "materials"));
+  fmt::print("  {}, {}, {}, {} of them closed\n", counted(survey.plants, "plant"), counted(survey.organs, "organ"),
+             counted(shape.pieces, "connected piece"), survey.closed_pieces);
+  fmt::print("  named in the file: {}, {}, {}\n", counted(named.objects, "object"), counted(named.groups, "group"),
+             counted(survey.has_materials() ? survey.materials.size() : 0, "material"));
   if (survey.needs_split()) fmt::print("  split = \"parts\" in a scene makes an organ of each piece\n");
   print_shares("organs by name:", survey.families, unit_m2);
   if (survey.has_materials())

@@ -7,7 +7,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace sunfleck::columns::in_vectors::HWY_NAMESPACE {
+namespace sunfleck::columns::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -193,71 +193,24 @@ void add_scaled(double factor, std::span<const double> a, std::span<double> sums
   singly::add_scaled(rest, factor, a, sums);
 }
 
-}  // namespace sunfleck::columns::in_vectors::HWY_NAMESPACE
+const InVectors* functions() {
+  static constexpr InVectors all{sum_scaled, largest_scaled, weigh, carry, split, add, subtract, scale, add_share, add_scaled};
+  return &all;
+}
+
+}  // namespace sunfleck::columns::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace sunfleck {
 namespace columns {
-namespace in_vectors {
 
-HWY_EXPORT(sum_scaled);
-HWY_EXPORT(largest_scaled);
-HWY_EXPORT(weigh);
-HWY_EXPORT(carry);
-HWY_EXPORT(split);
-HWY_EXPORT(add);
-HWY_EXPORT(subtract);
-HWY_EXPORT(scale);
-HWY_EXPORT(add_share);
-HWY_EXPORT(add_scaled);
+HWY_EXPORT(functions);
 
-OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
-                       std::size_t first) {
-  return HWY_DYNAMIC_DISPATCH(sum_scaled)(landed, parts, by, first);
+const InVectors& in_vectors() {
+  static const InVectors& widest = *HWY_DYNAMIC_DISPATCH(functions)();
+  return widest;
 }
-
-OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
-                           std::size_t first) {
-  return HWY_DYNAMIC_DISPATCH(largest_scaled)(landed, parts, by, first);
-}
-
-void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
-           const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
-  HWY_DYNAMIC_DISPATCH(weigh)(landed, sent, by, first, sharing, weights, sums);
-}
-
-void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta) {
-  HWY_DYNAMIC_DISPATCH(carry)(weights, loads, first, quanta);
-}
-
-void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
-           std::int64_t* scattered) {
-  HWY_DYNAMIC_DISPATCH(split)(landed, coefficients, u, absorbed, scattered);
-}
-
-void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  HWY_DYNAMIC_DISPATCH(add)(quanta, sums);
-}
-
-void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  HWY_DYNAMIC_DISPATCH(subtract)(quanta, sums);
-}
-
-void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
-           std::span<double> products) {
-  HWY_DYNAMIC_DISPATCH(scale)(quanta, a, b, c, products);
-}
-
-void add_share(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums) {
-  HWY_DYNAMIC_DISPATCH(add_share)(share, a, by, sums);
-}
-
-void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
-  HWY_DYNAMIC_DISPATCH(add_scaled)(factor, a, sums);
-}
-
-}  // namespace in_vectors
 
 }  // namespace columns
 

@@ -98,25 +98,26 @@ namespace columns {
 // Rows of fewer columns are not worth vectors.
 inline constexpr std::size_t least_in_vectors = 6;
 
-namespace in_vectors {
-
-OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
-                       std::size_t first);
-OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
-                           std::size_t first);
-void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
-           const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
-void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta);
-void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u, std::int64_t* absorbed,
-           std::int64_t* scattered);
-void add(std::span<const std::int64_t> quanta, std::int64_t* sums);
-void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums);
-void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
-           std::span<double> products);
-void add_share(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums);
-void add_scaled(double factor, std::span<const double> a, std::span<double> sums);
-
-}  // namespace in_vectors
+// Functions of the same names as those below, in vectors.
+struct InVectors {
+  OfBothParts (*sum_scaled)(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                            std::size_t first);
+  OfBothParts (*largest_scaled)(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
+                                std::size_t first);
+  void (*weigh)(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
+                const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums);
+  void (*carry)(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta);
+  void (*split)(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u,
+                std::int64_t* absorbed, std::int64_t* scattered);
+  void (*add)(std::span<const std::int64_t> quanta, std::int64_t* sums);
+  void (*subtract)(std::span<const std::int64_t> quanta, std::int64_t* sums);
+  void (*scale)(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
+                std::span<double> products);
+  void (*add_share)(double share, std::span<const double> a, std::span<const double* const> by, std::span<double* const> sums);
+  void (*add_scaled)(double factor, std::span<const double> a, std::span<double> sums);
+};
+// Returns those in the widest vectors of this processor.
+[[nodiscard]] const InVectors& in_vectors();
 
 // The columns of a row from the k-th on, one by one. `first` is the number of the row's first column among all columns.
 namespace singly {
@@ -219,66 +220,66 @@ inline void add_scaled(std::size_t first, double factor, std::span<const double>
 // the number `first` in all arrays that are not rows.
 inline OfBothParts sum_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
                               std::size_t first) {
-  if (landed.size() >= least_in_vectors) return in_vectors::sum_scaled(landed, parts, by, first);
+  if (landed.size() >= least_in_vectors) return in_vectors().sum_scaled(landed, parts, by, first);
   return singly::sum_scaled(0, landed, parts, by, first);
 }
 
 // Returns the largest of them.
 inline OfBothParts largest_scaled(std::span<const std::int64_t> landed, const ScatteredParts& parts, const FactorColumns& by,
                                   std::size_t first) {
-  if (landed.size() >= least_in_vectors) return in_vectors::largest_scaled(landed, parts, by, first);
+  if (landed.size() >= least_in_vectors) return in_vectors().largest_scaled(landed, parts, by, first);
   return singly::largest_scaled(0, landed, parts, by, first);
 }
 
 // Sets the row `weights` to the weight of each column in a packet, and adds it to `sums`.
 inline void weigh(std::span<const std::int64_t> landed, const SentPart& sent, const FactorColumns& by, std::size_t first,
                   const shared::Sharing& sharing, std::uint32_t* weights, std::uint64_t* sums) {
-  if (landed.size() >= least_in_vectors) return in_vectors::weigh(landed, sent, by, first, sharing, weights, sums);
+  if (landed.size() >= least_in_vectors) return in_vectors().weigh(landed, sent, by, first, sharing, weights, sums);
   singly::weigh(0, landed, sent, by, first, sharing, weights, sums);
 }
 
 // Sets the row `quanta` to what a packet of these weights carries.
 inline void carry(std::span<const std::uint32_t> weights, const FactorColumns& loads, std::size_t first, std::int64_t* quanta) {
-  if (weights.size() >= least_in_vectors) return in_vectors::carry(weights, loads, first, quanta);
+  if (weights.size() >= least_in_vectors) return in_vectors().carry(weights, loads, first, quanta);
   singly::carry(0, weights, loads, first, quanta);
 }
 
 // Splits a row with its coefficients: adds to a row of what is absorbed, and sets a row to what is scattered.
 inline void split(std::span<const std::int64_t> landed, const std::uint64_t* coefficients, std::uint32_t u,
                   std::int64_t* absorbed, std::int64_t* scattered) {
-  if (landed.size() >= least_in_vectors) return in_vectors::split(landed, coefficients, u, absorbed, scattered);
+  if (landed.size() >= least_in_vectors) return in_vectors().split(landed, coefficients, u, absorbed, scattered);
   singly::split(0, landed, coefficients, u, absorbed, scattered);
 }
 
 // Adds quanta to as many sums.
 inline void add(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::add(quanta, sums);
+  if (quanta.size() >= least_in_vectors) return in_vectors().add(quanta, sums);
   singly::add(0, quanta, sums);
 }
 
 // Subtracts quanta from as many sums.
 inline void subtract(std::span<const std::int64_t> quanta, std::int64_t* sums) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::subtract(quanta, sums);
+  if (quanta.size() >= least_in_vectors) return in_vectors().subtract(quanta, sums);
   singly::subtract(0, quanta, sums);
 }
 
 // Sets the products of quanta * a * b * c, multiplied in this order.
 inline void scale(std::span<const std::int64_t> quanta, std::span<const double> a, double b, std::span<const double> c,
                   std::span<double> products) {
-  if (quanta.size() >= least_in_vectors) return in_vectors::scale(quanta, a, b, c, products);
+  if (quanta.size() >= least_in_vectors) return in_vectors().scale(quanta, a, b, c, products);
   singly::scale(0, quanta, a, b, c, products);
 }
 
 // Adds share * a to the first row of sums, and its product with each row of `by` to the row of sums after it.
 inline void add_share(double share, std::span<const double> a, std::span<const double* const> by,
                       std::span<double* const> sums) {
-  if (a.size() >= least_in_vectors) return in_vectors::add_share(share, a, by, sums);
+  if (a.size() >= least_in_vectors) return in_vectors().add_share(share, a, by, sums);
   singly::add_share(0, share, a, by, sums);
 }
 
 // Adds factor * a to the sums.
 inline void add_scaled(double factor, std::span<const double> a, std::span<double> sums) {
-  if (a.size() >= least_in_vectors) return in_vectors::add_scaled(factor, a, sums);
+  if (a.size() >= least_in_vectors) return in_vectors().add_scaled(factor, a, sums);
   singly::add_scaled(0, factor, a, sums);
 }
 

@@ -6,7 +6,7 @@ import functools
 import json
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -88,6 +88,10 @@ class Result:
         except KeyError:
             refuse(f"result[{column!r}]", "no such column of triangles", f"use one of {', '.join(self.triangles)}")
             raise
+
+    def __iter__(self) -> Iterator[str]:
+        """Gives the names of the columns of `triangles`."""
+        return iter(self.triangles)
 
     @functools.cached_property
     def organs(self) -> dict[str, Any]:

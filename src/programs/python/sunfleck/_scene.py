@@ -34,6 +34,8 @@ class SceneSource:
         self._tables: Union[dict[str, Any], None] = None
         self._content: Union[bytes, None] = None
         if isinstance(scene, Mapping):
+            if not scene:
+                refuse("scene: {}", "is empty", "give its tables, such as plot, band, optics and geometry")
             self.file = Path(path(folder or ".", "folder")) / _DICT_NAME
             self._absolute = self.file.absolute()
             with _refusing_depth():

@@ -59,6 +59,10 @@ class Variant:
             refuse(f"variant[{column!r}]", "no such column of triangles", f"use one of {', '.join(columns)}")
         return columns[column]
 
+    def __iter__(self) -> Iterator[str]:
+        """Gives the names of the columns of `triangles`."""
+        return iter(self.triangles)
+
     @property
     def organs(self) -> dict[str, Any]:
         """The columns of organs.csv, as in `Result.organs`."""
