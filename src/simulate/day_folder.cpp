@@ -28,20 +28,7 @@ constexpr const char* fields_file = "day.nc";
 constexpr const char* organ_steps_file = "organs_steps.nc";
 constexpr const char* day_plot = "day.png";
 constexpr const char* season_plot = "season.png";
-constexpr std::array<std::string_view, 14> day_files = {"day.csv",
-                                                        "day_sums.csv",
-                                                        "season.csv",
-                                                        "organs_day.csv",
-                                                        "plants_day.csv",
-                                                        "sensors_day.csv",
-                                                        "sensor_means_day.csv",
-                                                        "sensor_day_sums.csv",
-                                                        "planes_day.csv",
-                                                        "plane_day_sums.csv",
-                                                        fields_file,
-                                                        organ_steps_file,
-                                                        day_plot,
-                                                        season_plot};
+constexpr std::array<std::string_view, 4> other_files = {fields_file, organ_steps_file, day_plot, season_plot};
 
 StoredStep stored_step(const FinishedSteps& day, std::size_t step, StepFields fields) {
   std::optional<StoredStep> stored = day.store.read(step, fields);
@@ -212,7 +199,9 @@ WrittenDay write_day_files(const fs::path& folder, const ResultRequest& request,
 }
 
 bool is_file_of_days(const fs::path& name) {
-  return std::find(day_files.begin(), day_files.end(), name.string()) != day_files.end();
+  const auto has_name = [&](const DayTable& table) { return name == table.file; };
+  return std::find(other_files.begin(), other_files.end(), name.string()) != other_files.end() ||
+         std::any_of(day_tables().begin(), day_tables().end(), has_name);
 }
 
 }  // namespace sunfleck

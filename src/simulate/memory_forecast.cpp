@@ -42,7 +42,7 @@ struct SumBytes {
   double refining = 0.0;  // estimating the light of triangles at the end
 };
 
-// Of the trees of surfaces and of pooling over all of them at the same time.
+// Covers the trees of surfaces, and pooling over all of them at the same time.
 constexpr double bytes_refining_element = 400.0;
 
 // Returns the memory of one set of sums over all cells of the receivers.

@@ -41,7 +41,7 @@ enum class ResultOf { run, day };
 [[nodiscard]] std::optional<std::string> other_result_in(const std::filesystem::path& folder, ResultOf result);
 
 // Refuses a folder in which a result would replace a file that the scene was read from, or unfinished work of the other kind, which
-// --resume could go on with. Throws Error (input).
+// --resume could continue. Throws Error (input).
 void check_folder(const std::filesystem::path& folder, const Scene& scene, ResultOf result);
 
 // Says that a finished run or day (`work`) lacks a file; returns nothing if its folder has it.

@@ -77,12 +77,15 @@ TEST_F(Limits, ABoundHoldsForSensors) {
     for (const char* band : {"PAR", "NIR"})
       EXPECT_LE(means.number(row, std::string(band) + "_total_error"), 0.01 * means.number(row, std::string(band) + "_total"));
 
+  // On a clock of which 100 readings make a second.
+  preload({{"SUNFLECK_FAULT_STRIDE", "0.01"}});
   const std::string beyond =
-      simulate(scene, on_cpu + Arguments{"--direct-error", "0.01", "--indirect-error", "2e-4", "--max-seconds", "3"}, 1).err;
-  EXPECT_NE(beyond.find("stopped after --max-seconds 3"), std::string::npos) << beyond;
+      simulate(scene, on_cpu + Arguments{"--direct-error", "0.01", "--indirect-error", "2e-4", "--max-seconds", "20"}, 1).err;
+  EXPECT_NE(beyond.find("stopped after --max-seconds 20"), std::string::npos) << beyond;
   EXPECT_NE(beyond.find("sensors error"), std::string::npos) << beyond;
   EXPECT_EQ(summary()["complete"], false);
 
+  preload_nothing();
   folder_.write("scene.toml", line);
   simulate(scene, on_cpu + Arguments{"--error", "0.01"});
   sensors = summary()["sensors"];

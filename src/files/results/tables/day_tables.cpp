@@ -241,19 +241,28 @@ Table organ_steps_table(const DayStand& stand, const DayPart& part) {
   return table;
 }
 
+std::span<const DayTable> day_tables() {
+  constexpr auto always = [](const RadiationModel&) { return true; };
+  constexpr auto with_sensors = [](const RadiationModel& model) { return !model.sensors.empty(); };
+  constexpr auto with_planes = [](const RadiationModel& model) { return !model.planes.empty(); };
+  static constexpr DayTable all[] = {{"day.csv", steps_table, always},
+                                     {"day_sums.csv", day_sums_table, always},
+                                     {"season.csv", season_table, always},
+                                     {"organs_day.csv", organs_day_table, always},
+                                     {"plants_day.csv", plants_day_table, always},
+                                     {"sensors_day.csv", sensors_day_table, with_sensors},
+                                     {"sensor_means_day.csv", sensor_means_day_table, with_sensors},
+                                     {"sensor_day_sums.csv", sensor_day_sums_table, with_sensors},
+                                     {"planes_day.csv", planes_day_table, with_planes},
+                                     {"plane_day_sums.csv", plane_day_sums_table, with_planes}};
+  return all;
+}
+
 std::vector<DayTable> day_tables(const RadiationModel& model) {
-  std::vector<DayTable> tables = {{"day.csv", steps_table},
-                                  {"day_sums.csv", day_sums_table},
-                                  {"season.csv", season_table},
-                                  {"organs_day.csv", organs_day_table},
-                                  {"plants_day.csv", plants_day_table}};
-  if (!model.sensors.empty()) {
-    tables.insert(tables.end(), {{"sensors_day.csv", sensors_day_table},
-                                 {"sensor_means_day.csv", sensor_means_day_table},
-                                 {"sensor_day_sums.csv", sensor_day_sums_table}});
+  std::vector<DayTable> tables;
+  for (const DayTable& table : day_tables()) {
+    if (table.is_of(model)) tables.push_back(table);
   }
-  if (!model.planes.empty())
-    tables.insert(tables.end(), {{"planes_day.csv", planes_day_table}, {"plane_day_sums.csv", plane_day_sums_table}});
   return tables;
 }
 

@@ -46,8 +46,10 @@ struct DayPart {
 struct DayTable {
   const char* file;
   Table (*make)(const DayStand& stand, const DayPart& part);
+  bool (*is_of)(const RadiationModel& model);
 };
-// Returns the tables of a day; those of planes and sensors only if the model has any.
+// Returns all tables of days, or those of a model: tables of planes and sensors only if it has any.
+[[nodiscard]] std::span<const DayTable> day_tables();
 [[nodiscard]] std::vector<DayTable> day_tables(const RadiationModel& model);
 
 // Adds the columns `time`, the start of each step, and `date`, which vary along the first axis of a table.
