@@ -29,8 +29,8 @@ void expect_folder_of(const std::filesystem::path& file);
 // if that is less. Returns the memory of the machine if the system reports neither.
 [[nodiscard]] std::uintmax_t available_memory_bytes();
 
-// Returns how much memory a control group (version 2) and those around it leave, the least of all, or the largest number if none has a
-// limit. `group` is its path as /proc/self/cgroup states it, from the root at which the groups are mounted.
+// Returns how much memory a control group (version 2) and those around it leave, the least of all, or the largest number if
+// none has a limit. `group` is its path as /proc/self/cgroup states it, from the root at which the groups are mounted.
 [[nodiscard]] std::uintmax_t memory_left_by_groups(const std::filesystem::path& root, const std::filesystem::path& group);
 
 // Writes to a temporary file in the same folder and renames it, so that the file is either complete or absent even if the

@@ -46,7 +46,8 @@ TEST(EdgeOnLeaf, HasNoSunlitShareAndIsLeftOutOfTheTotals) {
   }
 }
 
-// A ray or none meets a leaf whose plane the beam misses by 0.01 degrees: where none does, the other leaf's rays tell nothing of it.
+// A ray or none meets a leaf whose plane the beam misses by 0.01 degrees: where none does, the other leaf's rays tell nothing
+// of it.
 TEST(EdgeOnLeaf, IsNotTakenForShadeIfItIsNearlySo) {
   constexpr int runs = 60;
   const RadiationModel model = edge_on_model(endless, 90.01);

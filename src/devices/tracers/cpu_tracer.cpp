@@ -25,8 +25,8 @@ constexpr std::uint32_t packets_per_slice = 1U << 17U;
 // Low rays through a small plot may cross half a million periods; all rays of a slice cross about as many at most.
 constexpr double crossings_per_slice = 0x1p22;
 
-// Returns how many periods a ray crosses that falls from top to ground, if it meets nothing. Directions of all kinds, which a direction
-// of 0 stands for, cross few on average.
+// Returns how many periods a ray crosses that falls from top to ground, if it meets nothing. Directions of all kinds, which a
+// direction of 0 stands for, cross few on average.
 double crossings_of_fall(double fall_m, const glm::vec2& period_m, const glm::vec3& direction) {
   const glm::dvec2 periods = fall_m / glm::dvec2(period_m);
   if (direction == glm::vec3(0.0F)) return 2.0 * (periods.x + periods.y);
@@ -38,7 +38,7 @@ double crossings_of_fall(double fall_m, const glm::vec2& period_m, const glm::ve
 struct Slice {
   std::uint32_t rays = 0, rays_at_least = 0;  // of a slice, and of a thread's part of it
 
-  // Of `most` rays, in parts of `batch`.
+  // Has `most` rays at most, which threads share in parts of `batch`.
   Slice(std::uint32_t most, std::uint32_t batch, double crossings) : rays(most), rays_at_least(batch) {
     const double few = crossings_per_slice / (1.0 + std::min<double>(crossings, shared::max_crossings));
     if (few >= most) return;

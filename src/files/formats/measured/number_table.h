@@ -31,10 +31,10 @@ struct NumberTable {
 
 using HeaderCheck = std::function<void(const NumberTable&)>;
 
-// Reads a table that begins with a line of column names. Commas separate its cells, or semicolons or tabs if that line has any; a
-// comma may then be the decimal mark. `#` lines and blank lines may occur anywhere, cells may be in double quotes. Throws Error (input), one line `FILE:LINE: ...`, for malformed tables, numbers that are not finite,
-// and files of more than 10 MB. Calls `check_header` once the columns are known, before any row is read. Adds the file to `files`
-// if that is given.
+// Reads a table that begins with a line of column names. Commas separate its cells, or semicolons or tabs if that line has any;
+// a comma may then be the decimal mark. `#` lines and blank lines may occur anywhere, cells may be in double quotes. Throws
+// Error (input), one line `FILE:LINE: ...`, for malformed tables, numbers that are not finite, and files of more than 10 MB.
+// Calls `check_header` once the columns are known, before any row is read. Adds the file to `files` if that is given.
 [[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const HeaderCheck& check_header = {},
                                             SourceFiles* files = nullptr);
 

@@ -23,12 +23,12 @@ struct WeatherFile {
 // Reads a weather file; values are W m-2 in 0..most_broadband_w_m2. Ctrl-Z at its end, by which DOS ended a text, is ignored.
 // Throws Error (input), one line `FILE:LINE: what (why); cure`. Adds the file to `files` if that is given.
 //
-// CSV: a line of column names, then one row per interval in ascending order. Commas separate the cells, or semicolons or tabs if the
-// first line has any; a comma may then be the decimal mark. `time` is ISO 8601 and marks the start of the interval. All times state
-// their offsets from UTC, or none does and `offset_minutes` is given. An interval lasts until the next row; the last one is as long
-// as the one before. A step longer than the most common one is an interval of the common length followed by a gap. Irradiance is in
-// `ghi`, in `ghi` and `dhi`, or in `dni` and `dhi`; if all three are present, ghi is not read. Other columns are ignored, and so are
-// blank lines and lines that begin with #. A missing value is refused.
+// CSV: a line of column names, then one row per interval in ascending order. Commas separate the cells, or semicolons or tabs
+// if the first line has any; a comma may then be the decimal mark. `time` is ISO 8601 and marks the start of the interval. All
+// times state their offsets from UTC, or none does and `offset_minutes` is given. An interval lasts until the next row; the
+// last one is as long as the one before. A step longer than the most common one is an interval of the common length followed by
+// a gap. Irradiance is in `ghi`, in `ghi` and `dhi`, or in `dni` and `dhi`; if all three are present, ghi is not read. Other
+// columns are ignored, and so are blank lines and lines that begin with #. A missing value is refused.
 //
 // EPW: eight header lines, then 8760 hours (8784 in a leap year) of local standard time. The number of an hour, 1 to 24, marks
 // its end. The data hold for every year (Weather::every_year): a date is looked up by month, day and hour. Values marked as

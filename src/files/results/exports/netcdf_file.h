@@ -59,8 +59,8 @@ class NetcdfFile {
     return number;
   }
 
-  // Writes a variable of names, made printable: characters padded with zeros, `name`(dimension, name_length), or strings if a name has
-  // a letter that is not ASCII, since readers take the bytes of such characters apart.
+  // Writes a variable of names, made printable: characters padded with zeros, `name`(dimension, name_length), or strings if a
+  // name has a letter that is not ASCII, since readers take the bytes of such characters apart.
   void names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning);
 
   // Completes the file; no other call may follow. Use `take` for a file in memory and `finish` for one on disk.

@@ -18,9 +18,9 @@ enum class ElementErrors {
   keep_sides_and_refine,
 };
 
-// What a figure is judged against at least, lest a run never end where it is next to nothing: this share of the incident flux, or, for
-// the light that vegetation absorbs after the first landings, of all that it absorbs. Organs are judged if they receive at least the
-// second share of the mean organ's flux.
+// What a figure is judged against at least, lest a run never end where it is next to nothing: this share of the incident flux,
+// or, for the light that vegetation absorbs after the first landings, of all that it absorbs. Organs are judged if they receive
+// at least the second share of the mean organ's flux.
 inline constexpr double least_judged_share = 0.01;
 inline constexpr double least_judged_organ = 0.1;
 

@@ -51,10 +51,10 @@ class ReplicateMean {
   // Returns the same as above, but where the spread says little the half-width is at least `unseen`, the amount that may have
   // escaped all replicates.
   [[nodiscard]] Estimate estimate(double t_quantile, double unseen) const;
-  // Returns the same for the mean sunlit area out of `whole`, of which a ray shows the more the nearer to edge-on it lands. Unless
-  // the spread says little, `unseen` is the area of parts nearer to edge-on than all that rays met: the replicates may have missed what
-  // would change the area most. If as much of it as of the rest is sunlit, or up to twice as much, and that is more than three times
-  // what the spread tells, it is the half-width.
+  // Returns the same for the mean sunlit area out of `whole`, of which a ray shows the more the nearer to edge-on it lands.
+  // Unless the spread says little, `unseen` is the area of parts nearer to edge-on than all that rays met: the replicates may
+  // have missed what would change the area most. If as much of it as of the rest is sunlit, or up to twice as much, and that is
+  // more than three times what the spread tells, it is the half-width.
   [[nodiscard]] Estimate estimate_of_area(double t_quantile, double unseen, double whole) const;
 
  private:

@@ -119,9 +119,9 @@ class ResultMaker {
     return unseen_sunlit_m2(std::move(parts), unseen(1.0));
   }
 
-  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little or
-  // nothing of it, from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that any share would agree with
-  // what the rays met.
+  // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little
+  // or nothing of it, from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that
+  // any share would agree with what the rays met.
   [[nodiscard]] Estimate sunlit_estimate(const ReplicateMean& mean, double facing_m2, double unseen_lit_m2) const {
     if (!(facing_m2 > 0.0)) return {no_value, no_value};
     const double unseen_share = unseen_lit_m2 / facing_m2;
@@ -129,10 +129,10 @@ class ResultMaker {
     return mean.estimate_of_area(quantile_, unseen_share, 1.0);
   }
 
-  // Returns the parts of groups of elements of whose sunlit area the replicates may show nothing, [group]: all that the beam can hit
-  // of a group whose spread says little, or else those nearer to edge-on than all that rays met. A landing there would count for more
-  // area than any that the spread knows of. `sunlit(group)` is the group's share, groups_of(e, give) calls give(group) for the groups
-  // of an element, and areas_of(e, give) calls give(group, area_m2).
+  // Returns the parts of groups of elements of whose sunlit area the replicates may show nothing, [group]: all that the beam
+  // can hit of a group whose spread says little, or else those nearer to edge-on than all that rays met. A landing there would
+  // count for more area than any that the spread knows of. `sunlit(group)` is the group's share, groups_of(e, give) calls
+  // give(group) for the groups of an element, and areas_of(e, give) calls give(group, area_m2).
   template <class Sunlit, class GroupsOf, class AreasOf>
   [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_parts(std::size_t groups, const Sunlit& sunlit,
                                                                   const GroupsOf& groups_of, const AreasOf& areas_of) const {
@@ -305,8 +305,8 @@ class ResultMaker {
     return estimate;
   }
 
-  // Returns the most that unshot flux would still bring through a plane in one direction, W m-2. It crosses the plane on every second
-  // flight at most, and makes a flight more than it has landings.
+  // Returns the most that unshot flux would still bring through a plane in one direction, W m-2. It crosses the plane on every
+  // second flight at most, and makes a flight more than it has landings.
   [[nodiscard]] double unshot_through_w_m2(std::size_t band) const {
     const double waited = sums_.first_waiting[band];
     const double landings = waited > 0.0 ? (sums_.landed[band] - sums_.sky_landed[band]) / waited : 0.0;

@@ -166,9 +166,9 @@ class Estimation {
     return totals;
   }
 
-  // Turns variances of expected landings into those of the landings that divide() gives: an element gets its share of what landed on
-  // its side of the surface, which varies from run to run, too. The variance of an organ's landings belongs to its sides in proportion
-  // to their landings.
+  // Turns variances of expected landings into those of the landings that divide() gives: an element gets its share of what
+  // landed on its side of the surface, which varies from run to run, too. The variance of an organ's landings belongs to its
+  // sides in proportion to their landings.
   void add_variance_of_totals(const std::array<std::vector<double>, 2>& expected, const std::vector<std::int64_t>& landed) {
     const std::vector<SideTotal> totals = side_totals(expected, landed);
     std::vector<double> organ_landings(sums_.organ_landings_variance.size());
