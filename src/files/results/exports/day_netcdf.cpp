@@ -41,10 +41,11 @@ class DayWriter {
     const ElementFields places = make_element_places(day_.model);
     for (const Column& column : triangles_table(places).columns) {
       if (!column.is_in(in_netcdf)) continue;
-      file_.add(column, {triangle_});
-      if (!column.categories) continue;
-      const int kinds = file_.dimension(column.name + "_kind", column.categories->size());
-      file_.names(column.name + "_name", kinds, *column.categories, fmt::format("name of each value of {}", column.name));
+      if (column.categories) {
+        add_kinds(file_, column, triangle_);
+      } else {
+        file_.add(column, {triangle_});
+      }
     }
   }
 

@@ -71,11 +71,17 @@ int NetcdfFile::define(const std::string& name, int type, const std::vector<int>
   return number;
 }
 
+// CF 1.8 (section 2.5.1) allows no missing values in coordinates, nor in their bounds.
+bool NetcdfFile::is_coordinate(const std::string& name) const {
+  int number = -1;
+  return name.ends_with("_bounds") || FROM_NETCDF(nc_inq_dimid)(file_, name.c_str(), &number) == NC_NOERR;
+}
+
 template <class T>
 int NetcdfFile::variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units,
                          std::string_view meaning) {
   const int number = define(name, type_number<T>, dimensions);
-  if constexpr (std::is_floating_point_v<T>) {
+  if (std::is_floating_point_v<T> && !is_coordinate(name)) {
     const T missing = std::numeric_limits<T>::quiet_NaN();
     check(FROM_NETCDF(nc_def_var_fill)(file_, number, NC_FILL, &missing), fmt::format("variable {}", name));
   }

@@ -24,7 +24,8 @@ class NetcdfFile {
   NetcdfFile& operator=(const NetcdfFile&) = delete;
 
   // Define a dimension or variable and return its number. Variables with dimensions are compressed (deflate 2 after shuffling);
-  // NaN is the missing value of float and double variables. They have long_name and units unless these are empty.
+  // NaN is the missing value of float and double variables, but for coordinates, which have the name of a dimension. They have
+  // long_name and units unless these are empty.
   int dimension(const std::string& name, std::size_t size);
   template <class T>  // std::int32_t, std::int64_t, float or double
   int variable(const std::string& name, const std::vector<int>& dimensions, std::string_view units = {},
@@ -69,6 +70,7 @@ class NetcdfFile {
 
  private:
   [[nodiscard]] std::vector<std::size_t> shape_of(int variable);
+  [[nodiscard]] bool is_coordinate(const std::string& name) const;
   void strings(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning);
   int define(const std::string& name, int type, const std::vector<int>& dimensions);
   void put_all(int variable, const void* values);

@@ -36,25 +36,6 @@ class ResultsWriter {
   }
 
  private:
-  void add_flags(Column column) {
-    column.unit.clear();
-    const int number = file_.variable(column, {triangle_});
-    std::vector<std::int32_t> flags;
-    std::string meanings;
-    for (const std::string& name : *column.categories) {
-      if (!flags.empty()) meanings += ' ';
-      meanings += flag_word(name);
-      flags.push_back(static_cast<std::int32_t>(flags.size()));
-    }
-    if (!flags.empty()) {
-      file_.attribute(number, "flag_values", flags);
-      file_.attribute(number, "flag_meanings", meanings);
-    }
-    file_.put(number, column);
-    file_.names(column.name + "_name", file_.dimension(column.name + "_kind", flags.size()), *column.categories,
-                fmt::format("name of each value of {}", column.name));
-  }
-
   void add_light(const Column& column) {
     const int number = file_.variable(column, {triangle_});
     file_.attribute(number, "coordinates", "x y z");
@@ -77,7 +58,7 @@ class ResultsWriter {
       if (is_light(column)) {
         add_light(column);
       } else if (column.categories) {
-        add_flags(column);
+        add_kinds(file_, column, triangle_);
       } else {
         file_.add(column, {triangle_});
       }
@@ -141,6 +122,25 @@ class ResultsWriter {
 };
 
 }  // namespace
+
+void add_kinds(NetcdfFile& file, Column kinds, int dimension) {
+  kinds.unit.clear();
+  const int number = file.variable(kinds, {dimension});
+  std::vector<std::int32_t> flags;
+  std::string meanings;
+  for (const std::string& name : *kinds.categories) {
+    if (!flags.empty()) meanings += ' ';
+    meanings += flag_word(name);
+    flags.push_back(static_cast<std::int32_t>(flags.size()));
+  }
+  if (!flags.empty()) {
+    file.attribute(number, "flag_values", flags);
+    file.attribute(number, "flag_meanings", meanings);
+  }
+  file.put(number, kinds);
+  file.names(kinds.name + "_name", file.dimension(kinds.name + "_kind", flags.size()), *kinds.categories,
+             fmt::format("name of each value of {}", kinds.name));
+}
 
 void add_record(NetcdfFile& file, std::string_view command, const RunRecord& record, const RadiationModel& model) {
   constexpr int whole_file = -1;

@@ -15,4 +15,8 @@ namespace sunfleck {
 // Adds the record to a netCDF file as attributes; `command` is run or day.
 void add_record(NetcdfFile& file, std::string_view command, const RunRecord& record, const RadiationModel& model);
 
+// Adds a column of kinds, such as the organ of each triangle: their numbers, with the names as flags (CF 1.8, section 3.5), and the
+// variable COLUMN_name, which holds the names as they are.
+void add_kinds(NetcdfFile& file, Column kinds, int dimension);
+
 }  // namespace sunfleck
