@@ -108,6 +108,22 @@ TEST(BuriedLeaf, IsLitBesideThePlot) {
   expect_agrees(result.organs[0].sunlit_fraction, 1.0, exposure_replicates, 0.01, 1, "leaf beside the plot");
 }
 
+// Rays are aimed at the leaf, and hardly any meets the small plot far away from it.
+TEST(FarPlot, IsNotTakenForNothing) {
+  MeshMaker maker;
+  maker.level(1000.0, 1000.5, 1000.0, 1000.5, 0.5);
+  RadiationModel model = black_model(maker.mesh(), isolated, sun_at(90.0, 0.0));
+  model.soil->reflectance = {0.2};
+  SolveSettings settings;
+  settings.accuracy.direct = settings.accuracy.indirect = 0.01;
+  settings.max_rays = 300'000;
+  const RadiationResult result = simulate(model, settings);
+  ASSERT_EQ(result.stop, StopReason::rays_spent);
+  ASSERT_EQ(result.ground_sunfleck_ratio.value, 0.0);
+  EXPECT_GE(result.bands[0].incident.value + result.bands[0].incident.half_width, 1.25);
+  EXPECT_GE(result.bands[0].reflected.value + result.bands[0].reflected.half_width, 0.2);
+}
+
 TEST(ShareWithoutABeam, IsNone) {
   RadiationModel model = edge_on_model(endless);
   model.bands[0].direct_w_m2 = 0.0;

@@ -137,6 +137,7 @@ Incidence ReplicateMaker::incidence(double beam_rays, bool aimed, std::size_t li
   for (const WeightedBeamGrid& part : grids) {
     incidence.rays += part.weight * part.grid.rays();
     incidence.traced_rays += part.grid.rays();
+    incidence.largest_weight = std::max(incidence.largest_weight, part.weight);
   }
   return incidence;
 }

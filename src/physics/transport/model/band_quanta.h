@@ -23,13 +23,14 @@ inline constexpr std::size_t most_replicates = std::size_t{1} << 16U;
 
 // The rays and packets that carry the light of one replicate.
 struct Incidence {
-  std::uint64_t rays = 0;          // beam rays; one of weight w (BeamPart) counts as w
-  std::uint64_t traced_rays = 0;   // beam rays that are traced
-  double ground_per_ray_m2 = 0.0;  // level ground represented by one beam ray of weight 1
-  double sky_ground_m2 = 0.0;      // level ground represented by all sky rays together; 0 without a sky
-  double packets = 0.0;            // approximate number of packets in the first round for each light
-  std::size_t sky_rays = 0;        // approximate number of sky rays
-  double sky_weight = 1.0;         // of the ray with the largest flux, relative to the mean
+  std::uint64_t rays = 0;            // beam rays; one of weight w (BeamPart) counts as w
+  std::uint64_t traced_rays = 0;     // beam rays that are traced
+  double ground_per_ray_m2 = 0.0;    // level ground represented by one beam ray of weight 1
+  double sky_ground_m2 = 0.0;        // level ground represented by all sky rays together; 0 without a sky
+  double packets = 0.0;              // approximate number of packets in the first round for each light
+  std::size_t sky_rays = 0;          // approximate number of sky rays
+  double sky_weight = 1.0;           // of the ray with the largest flux, relative to the mean
+  std::uint32_t largest_weight = 1;  // of a beam ray
 };
 // Returns the quanta of every waveband. [waveband]
 [[nodiscard]] std::vector<BandQuanta> make_band_quanta(const RadiationModel& model, const Incidence& incidence);

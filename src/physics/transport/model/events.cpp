@@ -40,6 +40,7 @@ LightEvents make_light_events(const RadiationModel& model, const std::vector<Ban
     const double sky_w_m2 = static_cast<double>(quanta[b].sky) * quanta[b].w_m2_per_quantum;
     const double lamps_w_m2 = static_cast<double>(quanta[b].lamps) * quanta[b].w_m2_per_quantum;
     events.beam_w_m2.push_back(beam_w_m2);
+    events.around_w_m2.push_back(beam_w_m2 * incidence.largest_weight);
     events.sky_w_m2.push_back(incidence.sky_rays > 0 ? sky_w_m2 * incidence.sky_weight / static_cast<double>(incidence.sky_rays)
                                                      : 0.0);
     events.scattering.push_back(largest_scattering(model, b));

@@ -14,6 +14,7 @@ namespace sunfleck {
 struct LightEvents {
   double beam_share = 0.0;           // share of the plot that one beam ray represents
   std::vector<double> beam_w_m2;     // [band], of one beam ray
+  std::vector<double> around_w_m2;   // [band], of one beside the stand that rays are aimed at; as beam_w_m2 elsewhere
   std::vector<double> sky_w_m2;      // [band], the most that one sky ray carries
   std::vector<double> scattering;    // [band], the largest share of a landing's flux that any surface scatters
   std::vector<double> start_w_m2;    // [band], the most that waits before the first round of packets

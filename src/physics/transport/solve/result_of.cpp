@@ -97,8 +97,14 @@ class ResultMaker {
       return Estimate{static_cast<double>(quanta) * per_quantum, of_mean.half_width + result.unshot};
     };
     const double any = events_.largest_w_m2(band);
-    if (!model_.plot.periodic && (model_.has_beam() || model_.has_sky()))  // what lamps emit is exact
-      result.incident.half_width = sums_.bands[band].incident.estimate(quantile_, unseen(any)).half_width;
+    const double on_ground = std::max(any, events_.around_w_m2[band]);
+    // Where no ray met the ground of an isolated stand, the spread of what met the stand says nothing of it.
+    const bool misses_ground = !model_.plot.periodic && model_.has_beam() && !(sums_.first_ground.mean() > 0.0);
+    const double unseen_ground_w_m2 = misses_ground ? unseen(events_.around_w_m2[band]) : 0.0;
+    if (!model_.plot.periodic && (model_.has_beam() || model_.has_sky())) {  // what lamps emit is exact
+      result.incident.half_width = sums_.bands[band].incident.estimate(quantile_, unseen(on_ground)).half_width;
+      result.incident.half_width = std::hypot(result.incident.half_width, unseen_ground_w_m2);
+    }
     const double packet = scatters(model_, band) ? events_.other_w_m2(band) : 0.0;
     const double beam = areas_.beam_meets_canopy() ? events_.beam_w_m2[band] : 0.0;
     const double fallen = !model_.soil ? std::max(beam, events_.other_w_m2(band)) : !model_.plot.periodic ? packet : 0.0;
@@ -108,8 +114,12 @@ class ResultMaker {
       result.absorbed_structure =
           estimate(ledger.absorbed_structure, sums_.bands[band].structure, any * areas_.structure_absorptance[band]);
     }
-    result.absorbed_soil = estimate(ledger.absorbed_soil, sums_.bands[band].soil, any * areas_.soil_absorptance[band]);
+    result.absorbed_soil = estimate(ledger.absorbed_soil, sums_.bands[band].soil, on_ground * areas_.soil_absorptance[band]);
     result.reflected = estimate(ledger.reflected, sums_.bands[band].reflected, packet);
+    if (model_.soil) {
+      result.reflected.half_width =
+          std::hypot(result.reflected.half_width, unseen_ground_w_m2 * model_.soil->reflectance[band]);
+    }
     result.transmitted = estimate(ledger.transmitted, sums_.bands[band].transmitted, fallen);
     return result;
   }

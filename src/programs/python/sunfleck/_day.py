@@ -225,7 +225,9 @@ class DayResult:
         when = columns.pop(first)
         if first == "time":
             when = [_utc(text) for text in when]
-        units = self._units(file) if file else {name: "W m-2" for name in columns if "_absorbed" in name} | {"area_m2": "m2"}
+        units = self._units(file or "organs_day.csv")
+        if not file:
+            units = {name: units.get(name, "W m-2") for name in columns}
         if not second:
             return data_frame(columns, named(first, when), units)
         shape = next(values.shape for values in columns.values() if values.ndim == 2)
