@@ -47,7 +47,7 @@ inline void expect_three_parts(const std::string& message) {
 // Expects the work to be refused in three parts with these words in them, and returns the message.
 inline std::string expect_refusal(const std::function<void()>& work, std::string_view words = {},
                                   ErrorKind kind = ErrorKind::input) {
-  const std::string message = refusal_of(work, kind);
+  std::string message = refusal_of(work, kind);
   expect_three_parts(message);
   EXPECT_NE(message.find(words), std::string::npos) << message;
   return message;

@@ -24,7 +24,7 @@ struct Reference {
 struct ImageRange {
   int first = 0, last = 0;
 
-  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(last - first + 1); }
+  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(std::int64_t{last} - first + 1); }
   [[nodiscard]] bool holds_origin() const { return first <= 0 && last >= 0; }
 };
 

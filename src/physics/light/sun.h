@@ -23,7 +23,7 @@ struct UtcTime {
   int minute = 0;
   double second = 0.0;
 
-  friend auto operator<=>(const UtcTime&, const UtcTime&) = default;
+  friend auto operator<=>(const UtcTime&, const UtcTime&) = default;  // NOLINT(modernize-use-nullptr): taken for a null pointer
 };
 
 struct Place {

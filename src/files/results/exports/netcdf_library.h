@@ -13,7 +13,7 @@ namespace sunfleck {
 
 // Returns a function of netCDF, or of HDF5, the library below it; the libraries stay open. Throws Error (failure) if they cannot be
 // loaded.
-#define FROM_NETCDF(function) reinterpret_cast<decltype(&function)>(netcdf_function(#function))
+#define FROM_NETCDF(function) reinterpret_cast<decltype(&(function))>(netcdf_function(#function))
 [[nodiscard]] void* netcdf_function(const char* name);
 
 // Held by each file that is open, since neither library may be called by two threads at once.
