@@ -69,7 +69,7 @@ RowBlocks::RowBlocks(RowBlocks&& other) noexcept
       size_(std::exchange(other.size_, 0)),
       block_bytes_(other.block_bytes_),
       rows_each_(other.rows_each_),
-      spare_(other.spare_),
+      spare_(other.spare_),  // NOLINT(performance-move-constructor-init): the other may be filled again
       blocks_(std::exchange(other.blocks_, {})) {}
 
 RowBlocks& RowBlocks::operator=(RowBlocks other) noexcept {

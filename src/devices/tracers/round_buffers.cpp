@@ -133,7 +133,7 @@ std::size_t RoundSizes::most_lanes(const GpuContext& context, std::uint64_t most
   }
   if (std::max({2 * places, packets, small_words}) > most_threads) return 0;
   const auto most = static_cast<std::size_t>(most_of_heap * static_cast<double>(limits.heap_bytes));
-  return most < of_scene ? 0 : (most - of_scene) / of_lane;
+  return most < of_scene ? 0 : (most - of_scene) / std::max<std::size_t>(1, of_lane);
 }
 
 std::size_t RoundBuffers::offset_of_groups(std::uint32_t kind) {
