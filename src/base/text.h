@@ -20,6 +20,10 @@ namespace sunfleck {
   return is_capital(c) || (c >= 'a' && c <= 'z');
 }
 
+[[nodiscard]] constexpr bool is_ascii(char c) {
+  return static_cast<unsigned char>(c) < 0x80U;
+}
+
 // Returns a number with the name of what is counted, in the plural unless it is one: "1 triangle", "3 triangles".
 [[nodiscard]] std::string counted(std::size_t number, std::string_view one);
 

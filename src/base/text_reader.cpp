@@ -89,9 +89,9 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells, ch
   }
 }
 
-char separator_of(std::string_view column_names) {
+char separator_of(std::string_view first_line) {
   for (const char separator : {';', '\t'}) {
-    if (column_names.find(separator) != column_names.npos) return separator;
+    if (first_line.find(separator) != first_line.npos) return separator;
   }
   return ',';
 }

@@ -43,8 +43,8 @@ class LineReader {
 // quote that nothing closes is a character like any other. The views point into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
 
-// Returns what separates the cells of a table: semicolons or tabs if its line of column names has any, or else commas.
-[[nodiscard]] char separator_of(std::string_view column_names);
+// Returns what separates the cells of a table: semicolons or tabs if its first line has any, or else commas.
+[[nodiscard]] char separator_of(std::string_view first_line);
 // Returns its name in the plural, for messages.
 [[nodiscard]] std::string_view name_of_separator(char separator);
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "base/text_reader.h"
 #include "files/formats/mesh/mesh_content.h"
 
@@ -26,10 +27,6 @@ std::size_t count_lines(std::string_view text) {
 [[noreturn]] void refuse_at(const std::string& file, std::string_view text, std::size_t at, std::string_view what,
                             std::string_view why, std::string_view cure) {
   throw_input(fmt::format("{}:{}: {}", file, 1 + count_lines(text.substr(0, at)), what), why, cure);
-}
-
-bool is_ascii(char c) {
-  return static_cast<unsigned char>(c) < 0x80U;
 }
 
 // Returns the position after the string that starts at `begin`. An unterminated string ends with its line or the text; the

@@ -39,10 +39,9 @@ Cells cells_of(std::string_view line, char separator) {
 }
 
 // Returns what separates the columns of a line. A comma is the decimal mark if words between blanks are numbers with it.
-char separator_of(std::string_view line) {
-  for (const char separator : {';', '\t'}) {
-    if (line.find(separator) != line.npos) return separator;
-  }
+char separator_of_row(std::string_view line) {
+  const char separator = separator_of(line);
+  if (separator != ',') return separator;
   if (line.find(',') == line.npos) return ' ';
   const Cells words = cells_of(line, ' ');
   const auto is_number = [](std::string_view word) { return parse_number(word, ' ').has_value(); };
@@ -51,7 +50,7 @@ char separator_of(std::string_view line) {
 
 // Returns whether the line is a row of numbers, judged by its first cell.
 bool begins_with_number(std::string_view line) {
-  const char separator = separator_of(line);
+  const char separator = separator_of_row(line);
   const Cells cells = cells_of(line, separator);
   return cells.size() > 1 && parse_number(cells.front(), separator).has_value();
 }
@@ -107,7 +106,7 @@ SpectralTable read_rows(const Path& file, SourceFiles* files) {
     const std::string_view line = trimmed(lines.line());
     if (line.empty()) continue;
     if (columns == 0 && begins_with_number(line)) {
-      separator = separator_of(line);
+      separator = separator_of_row(line);
       columns = cells_of(line, separator).size();
       take_header(table, before, before_number, columns, separator);
     }

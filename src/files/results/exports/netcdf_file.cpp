@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "files/results/exports/netcdf_library.h"
 
 #include <fmt/format.h>
@@ -174,10 +175,8 @@ void NetcdfFile::put_rows(int variable, std::size_t first, std::size_t rows, std
 }
 
 void NetcdfFile::names(const std::string& name, int dimension, std::span<const std::string> values, std::string_view meaning) {
-  const auto is_ascii = [](const std::string& value) {
-    return std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80U; });
-  };
-  if (!std::all_of(values.begin(), values.end(), is_ascii)) return strings(name, dimension, values, meaning);
+  const auto is_plain = [](const std::string& value) { return std::all_of(value.begin(), value.end(), is_ascii); };
+  if (!std::all_of(values.begin(), values.end(), is_plain)) return strings(name, dimension, values, meaning);
   std::size_t longest = 1;
   for (const std::string& value : values) longest = std::max(longest, value.size());
   const int length = this->dimension(name + "_length", longest);

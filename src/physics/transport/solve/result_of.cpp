@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "physics/transport/model/layer_shares.h"
+#include "physics/transport/solve/unseen_areas.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,6 @@ class ResultMaker {
         layout_(sums.conversion.layout),
         quanta_(sums.conversion.quanta),
         events_(sums.events(confidence)),
-        exposure_(sums.conversion.exposure),
         areas_(sums.conversion.areas),
         confidence_(confidence),
         quantile_(t_quantile(confidence, sums.replicates)) {}
@@ -40,7 +39,7 @@ class ResultMaker {
     result.organs = organ_results();
     result.plants = plant_results();
     result.layers = layer_results();
-    const double unseen_leaves_m2 = unseen_m2(unseen_foliage());
+    const double unseen_leaves_m2 = unseen_areas().of_leaves_m2();
     result.leaf_classes = sums_.classes.leaves(unseen_leaves_m2, class_errors());
     result.element_error = sums_.element_errors(quantile_);
     result.side_error = sums_.side_errors(quantile_);
@@ -67,6 +66,7 @@ class ResultMaker {
 
  private:
   [[nodiscard]] double unseen(double event) const { return sums_.unseen(event, confidence_); }
+  [[nodiscard]] UnseenAreas unseen_areas() const { return {sums_, unseen(1.0)}; }
 
   [[nodiscard]] ShadeClasses::Errors class_errors() const {
     ShadeClasses::Errors errors{
@@ -124,11 +124,6 @@ class ResultMaker {
     return result;
   }
 
-  // Returns the area of these parts that the sun may shine on, or not, although the replicates do not show it.
-  [[nodiscard]] double unseen_m2(std::vector<FacingArea> parts) const {
-    return unseen_sunlit_m2(std::move(parts), unseen(1.0));
-  }
-
   // Returns the share of `facing_m2` in direct sun. Its interval follows from the spread of `mean` and, where that says little
   // or nothing of it, from the unseen area. Both numbers are NaN if the beam can hit none of the area, or so little of it that
   // any share would agree with what the rays met.
@@ -139,94 +134,19 @@ class ResultMaker {
     return mean.estimate_of_area(quantile_, unseen_share, 1.0);
   }
 
-  // Returns the parts of groups of elements of whose sunlit area the replicates may show nothing, [group]: all that the beam
-  // can hit of a group whose spread says little, or else those nearer to edge-on than all that rays met. A landing there would
-  // count for more area than any that the spread knows of. `sunlit(group)` is the group's share, groups_of(e, give) calls
-  // give(group) for the groups of an element, and areas_of(e, give) calls give(group, area_m2).
-  template <class Sunlit, class GroupsOf, class AreasOf>
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_parts(std::size_t groups, const Sunlit& sunlit,
-                                                                  const GroupsOf& groups_of, const AreasOf& areas_of) const {
-    std::vector<float> met(groups);  // the largest area of a landing
-    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
-      if (sums_.elements[e].both() == 0) continue;
-      groups_of(e, [&](std::size_t group) { met[group] = std::max(met[group], exposure_.lit_m2_per_landing(e)); });
-    }
-    std::vector<std::vector<FacingArea>> parts(groups);
-    for (std::size_t e = 0; e < sums_.elements.size(); ++e) {
-      if (!exposure_.can_hit(e)) continue;
-      const float of_landing_m2 = exposure_.lit_m2_per_landing(e);
-      const bool is_met = sums_.elements[e].both() > 0;
-      const auto is_unseen = [&](std::size_t group) {
-        return sunlit(group).says_little() || (!is_met && of_landing_m2 > met[group]);
-      };
-      bool any = false;
-      groups_of(e, [&](std::size_t group) { any = any || is_unseen(group); });
-      if (!any) continue;
-      areas_of(e, [&](std::size_t group, double part_m2) {
-        if (is_unseen(group)) parts[group].push_back({part_m2, of_landing_m2});
-      });
-    }
-    return parts;
-  }
-
-  [[nodiscard]] double element_m2(std::size_t e) const { return area_m2(model_.canopy.corners[e]); }
-
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_organs() const {
-    const auto sunlit = [&](std::size_t organ) -> const ReplicateMean& { return sums_.organs[organ].sunlit; };
-    const auto groups_of = [&](std::size_t e, const auto& give) { give(model_.canopy.organ_of[e]); };
-    const auto areas_of = [&](std::size_t e, const auto& give) { give(model_.canopy.organ_of[e], element_m2(e)); };
-    return unseen_parts(sums_.organs.size(), sunlit, groups_of, areas_of);
-  }
-
-  // Return the same of foliage: by plant, by layer, and all of it as one group.
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_plants() const {
-    const auto sunlit = [&](std::size_t plant) -> const ReplicateMean& { return sums_.plants[plant].sunlit; };
-    const auto groups_of = [&](std::size_t e, const auto& give) {
-      const std::uint32_t plant = areas_.plants.of_surface[sums_.conversion.surfaces.number_of[e]];
-      if (areas_.foliage[e] && plant != PlantAreas::no_plant) give(plant);
-    };
-    const auto areas_of = [&](std::size_t e, const auto& give) {
-      groups_of(e, [&](std::size_t plant) { give(plant, element_m2(e)); });
-    };
-    return unseen_parts(sums_.plants.size(), sunlit, groups_of, areas_of);
-  }
-  [[nodiscard]] std::vector<std::vector<FacingArea>> unseen_of_layers() const {
-    const auto sunlit = [&](std::size_t layer) -> const ReplicateMean& { return sums_.layers[layer].sunlit; };
-    const auto groups_of = [&](std::size_t e, const auto& give) {
-      const std::size_t first = first_layer(layout_, model_.canopy.corners[e]);
-      for (std::size_t k = first; areas_.foliage[e] && k < layout_.end_layer(e, first); ++k) give(k);
-    };
-    LayerShares shares(layout_);
-    const auto areas_of = [&](std::size_t e, const auto& give) {
-      shares.visit(e, model_.canopy.corners[e], [&](std::size_t k, double share) { give(k, share * element_m2(e)); });
-    };
-    return unseen_parts(areas_.layer_foliage_m2.size(), sunlit, groups_of, areas_of);
-  }
-  [[nodiscard]] std::vector<FacingArea> unseen_foliage() const {
-    const auto sunlit = [&](std::size_t) -> const ReplicateMean& { return sums_.sunlit; };
-    const auto groups_of = [&](std::size_t e, const auto& give) {
-      if (areas_.foliage[e]) give(0);
-    };
-    const auto areas_of = [&](std::size_t e, const auto& give) {
-      if (areas_.foliage[e]) give(0, element_m2(e));
-    };
-    return std::move(unseen_parts(1, sunlit, groups_of, areas_of).front());
-  }
-
   // Returns how much one beam ray changes a share of the rays that meet the scene, in one replicate.
   [[nodiscard]] double share_of_one_ray() const {
     return areas_.beam_meets_canopy() && sums_.met.mean() > 0.0 ? events_.beam_share / sums_.met.mean() : 0.0;
   }
 
   [[nodiscard]] std::vector<OrganResult> organ_results() const {
-    std::vector<std::vector<FacingArea>> parts = unseen_of_organs();
+    const std::vector<double> unseen_lit_m2 = unseen_areas().of_organs_m2();
     const ShadeClasses::Errors errors = class_errors();
     std::vector<OrganResult> results;
     for (std::size_t o = 0; o < sums_.organs.size(); ++o) {
       OrganResult result;
       result.area_m2 = areas_.organ_m2[o];
-      const double unseen_lit_m2 = unseen_m2(std::move(parts[o]));
-      result.sunlit_fraction = sunlit_estimate(sums_.organs[o].sunlit, areas_.organ_facing_m2[o], unseen_lit_m2);
+      result.sunlit_fraction = sunlit_estimate(sums_.organs[o].sunlit, areas_.organ_facing_m2[o], unseen_lit_m2[o]);
       const double per_area = areas_.organ_m2[o] > 0.0 ? model_.plot.area_m2() / areas_.organ_m2[o] : 0.0;
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double absorptance = areas_.organ_absorptance[o * sums_.bands.size() + b];
@@ -238,7 +158,7 @@ class ResultMaker {
         result.absorbed.push_back(of_both(sums_.organs[o].absorbed[b], varies_on_organ(o, b), beam * absorptance * per_area,
                                           other * absorptance * per_area, b));
       }
-      result.classes = sums_.classes.organ(o, unseen_lit_m2, errors);
+      result.classes = sums_.classes.organ(o, unseen_lit_m2[o], errors);
       results.push_back(std::move(result));
     }
     return results;
@@ -280,7 +200,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<PlantResult> plant_results() const {
     const PlantAreas& plants = areas_.plants;
-    std::vector<std::vector<FacingArea>> parts = unseen_of_plants();
+    const std::vector<double> unseen_lit_m2 = unseen_areas().of_plants_m2();
     const std::vector<Varies> varies = varies_on_plants();
     std::vector<PlantResult> results;
     for (std::size_t p = 0; p < plants.size(); ++p) {
@@ -289,8 +209,7 @@ class ResultMaker {
       result.position_m = plants.sites[p].position_m;
       result.height_m = plants.height_m[p];
       result.leaf_area_m2 = plants.leaf_m2[p];
-      result.sunlit_leaf_fraction =
-          sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], unseen_m2(std::move(parts[p])));
+      result.sunlit_leaf_fraction = sunlit_estimate(sums_.plants[p].sunlit, plants.facing_leaf_m2[p], unseen_lit_m2[p]);
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const std::size_t place = p * sums_.bands.size() + b;
         const double absorptance = plants.largest_absorptance[place];
@@ -325,7 +244,7 @@ class ResultMaker {
 
   [[nodiscard]] std::vector<LayerResult> layer_results() const {
     const std::size_t count = areas_.layer_foliage_m2.size();
-    std::vector<std::vector<FacingArea>> parts = unseen_of_layers();
+    const std::vector<double> unseen_lit_m2 = unseen_areas().of_layers_m2();
     const ShadeClasses::Errors errors = class_errors();
     const double one_ray = unseen(share_of_one_ray());
     std::vector<LayerResult> results;
@@ -339,9 +258,8 @@ class ResultMaker {
       result.sunlit_leaf_fraction = {no_value, no_value};
       if (below_top) {
         result.leaf_area_index = areas_.layer_foliage_m2[k] / model_.plot.area_m2();
-        const double unseen_lit_m2 = unseen_m2(std::move(parts[k]));
-        result.leaf_classes = sums_.classes.layer(k, unseen_lit_m2, errors);
-        result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], unseen_lit_m2);
+        result.leaf_classes = sums_.classes.layer(k, unseen_lit_m2[k], errors);
+        result.sunlit_leaf_fraction = sunlit_estimate(means.sunlit, areas_.layer_facing_m2[k], unseen_lit_m2[k]);
       }
       for (std::size_t b = 0; b < sums_.bands.size(); ++b) {
         const double any = std::max(areas_.beam_meets_canopy() ? events_.beam_w_m2[b] : 0.0, events_.other_w_m2(b));
@@ -366,7 +284,6 @@ class ResultMaker {
   const CounterLayout& layout_;
   const std::vector<BandQuanta>& quanta_;
   LightEvents events_;
-  const BeamExposure& exposure_;
   const CanopyAreas& areas_;
   double confidence_, quantile_;
 };

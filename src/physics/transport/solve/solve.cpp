@@ -80,7 +80,7 @@ class Solver {
   // Divides the rays among several lights by what pilots showed.
   void share_rays() {
     if (lights_.size() == 1 || planner_.fixed()) return;
-    const ReplicateOrder made = order(work_);
+    const ReplicateOrder made = order(series_->work);
     std::vector<double> rays;
     std::vector<SeriesOutcome> outcomes;
     for (std::size_t k = 0; k < lights_.size(); ++k) {
@@ -121,7 +121,6 @@ class Solver {
   // Begins a series of replicates; those of pilots have separate numbers.
   void begin(const Work& work, std::uint64_t stream = 0) {
     queue_.end();
-    work_ = work;
     begun_with_ = 0;
     begun_s_ = limits_.seconds();
     completion_ = {};
@@ -162,7 +161,7 @@ class Solver {
     traced_ += series_->grid_rays;
     if (const auto& packets = made->front().packets) {
       traced_ += packets->packets + packets->sky_rays;
-      planner_.learn(work_, *packets);
+      planner_.learn(series_->work, *packets);
     }
     for (const Replicate& replicate : *made) {
       direct_s_ += replicate.direct_s;
@@ -263,7 +262,7 @@ class Solver {
 
   void keep_state() const {
     if (!monitor_.receive_state || series_->replicates() < 2 || planner_.fitted_to_time()) return;
-    monitor_.receive_state({work_, ray_shares_, next_check_, pieces_of(*series_)});
+    monitor_.receive_state({series_->work, ray_shares_, next_check_, pieces_of(*series_)});
   }
 
   // Returns true if the next replicate would need more rays than are left.
@@ -280,7 +279,6 @@ class Solver {
     const bool use_fallback = fallback_ && (!series_ || series_->replicates() < 2);
     if (use_fallback) {
       series_ = std::move(fallback_);
-      work_ = series_->work;
       ray_shares_ = series_->ray_shares;
     } else if (!series_) {
       begin(first_pilot);
@@ -295,7 +293,7 @@ class Solver {
     for (std::size_t k = 0; k < lights_.size(); ++k) {
       RunSums& sums = *series_->sums[k];
       RadiationResult result = std::move(results[k]);
-      result.work = work_;
+      result.work = series_->work;
       move_arrays(sums, result);
       judge_.refine(k, sums, result);
       take_(k, std::move(result), outcome_of_all);
@@ -305,10 +303,10 @@ class Solver {
 
   // Gives each light's result the work that suits a similar light: rays by its own error, packets by the largest.
   void set_next_work(std::vector<RadiationResult>& results) const {
-    const ReplicateOrder made = order(work_);
+    const ReplicateOrder made = order(series_->work);
     const double indirect = judge_.indirect_error(*series_);
     for (std::size_t k = 0; k < results.size(); ++k) {
-      const Work own{made.rays_of(k), work_.packets};
+      const Work own{made.rays_of(k), series_->work.packets};
       results[k].next_work = planner_.next(own, {series_->replicates(), judge_.direct_error(*series_, k), indirect});
     }
   }
@@ -352,7 +350,6 @@ class Solver {
   WorkPlanner planner_;
   RunLimits limits_;
   std::unique_ptr<Series> series_, fallback_;
-  Work work_;
   std::uint64_t traced_ = 0;
   std::size_t next_check_ = first_check;
   std::size_t begun_with_ = 0;  // replicates that an earlier process made
